@@ -137,11 +137,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_05fa5d20::float64 {
+namespace hamgen_8310aeee::float64 {
 using Real = double;
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_STEP_REPORT
-#define HAMGEN_05FA5D20_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_8310AEEE_FLOAT64_STEP_REPORT
+#define HAMGEN_8310AEEE_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -151,15 +151,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_VOCABULARY
-#define HAMGEN_05FA5D20_FLOAT64_VOCABULARY
+#ifndef HAMGEN_8310AEEE_FLOAT64_VOCABULARY
+#define HAMGEN_8310AEEE_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_TWO_SUM
-#define HAMGEN_05FA5D20_FLOAT64_TWO_SUM
+#ifndef HAMGEN_8310AEEE_FLOAT64_TWO_SUM
+#define HAMGEN_8310AEEE_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -169,8 +169,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_SUM_WITH_REST
-#define HAMGEN_05FA5D20_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_8310AEEE_FLOAT64_SUM_WITH_REST
+#define HAMGEN_8310AEEE_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -182,15 +182,25 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_SUMS
-#define HAMGEN_05FA5D20_FLOAT64_SUMS
+#ifndef HAMGEN_8310AEEE_FLOAT64_SUMS
+#define HAMGEN_8310AEEE_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
   Real parts[8] = {};
   int j = 0;
-  for (; j + 8 <= count; j += 8) {
-    for (int k = 0; k < 8; ++k) parts[k] += term(j + k);
+  if constexpr (sizeof(Real) <= 8) {
+    for (; j + 8 <= count; j += 8) {
+#if defined __AVX__ && \
+    !defined __clang__  // else g++ takes them apart, and adds one after the other
+#pragma GCC unroll 1
+#endif
+      for (int k = 0; k < 8; ++k) parts[k] += term(j + k);
+    }
+  } else {
+    for (; j + 8 <= count; j += 8) {
+      for (int k = 0; k < 8; ++k) parts[k] += term(j + k);
+    }
   }
   for (int k = 0; j + k < count; ++k) parts[k] += term(j + k);
   return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
@@ -224,8 +234,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_BAND_MATRIX
-#define HAMGEN_05FA5D20_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_8310AEEE_FLOAT64_BAND_MATRIX
+#define HAMGEN_8310AEEE_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -290,8 +300,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_05FA5D20_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_8310AEEE_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_8310AEEE_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -356,14 +366,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_VERDICT
-#define HAMGEN_05FA5D20_FLOAT64_VERDICT
+#ifndef HAMGEN_8310AEEE_FLOAT64_VERDICT
+#define HAMGEN_8310AEEE_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_NEWTON_RULE
-#define HAMGEN_05FA5D20_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_8310AEEE_FLOAT64_NEWTON_RULE
+#define HAMGEN_8310AEEE_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -483,7 +493,8 @@ struct NewtonRule {
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
     const Real shown = Many ? 8 * round_off : seen_in(scale);
     const bool looked = !first || (unchecked < 32 && is_straight(size, shown, motion.move));
-    if (looked && serves && is_next_lost(size, round_off)) return Verdict::done;
+    const bool reaches = !Many || first || Power == 1 || size * size * size <= epsilon * round_off;
+    if (looked && serves && reaches && is_next_lost(size, round_off)) return Verdict::done;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !each.is_within(4096);
     previous = size;
     // Noise may turn in circles and never be twice in a row what it was.
@@ -532,8 +543,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_05FA5D20_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_8310AEEE_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_8310AEEE_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -558,7 +569,11 @@ struct NewtonRule {
 //
 // In the first four steps, of which no motion is known, the first increment is that of the motion,
 // and tells nothing of what moves together: of pairs in free flight the next one was told to be
-// lost, and their distance was off by up to 1e6.  There an increment must be lost itself.
+// lost, and their distance was off by up to 1e6.  There an increment must be lost itself, and none
+// ends a step as the first.  Nor may the contraction that is seen there be believed: a pair that
+// moves as a whole shows none, 1e-9, and swings it did not know of were off by 6e7 roundings, until
+// they were measured: it is a 2^-10th at least.  Nor does what follows a first increment tell the
+// contraction of a swing, where that was of the pair: it must be less than epsilon^(2/3).
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -623,7 +638,10 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // A step more is known, which has come to these values.
   void notice(const Real* value, int count) {
     if (++age >= 16) follow(value, count);
-    if (fresh > 0) --fresh;
+    if (fresh <= 0) return;
+    --fresh;
+    this->unchecked += 32;
+    if (1024 * this->contraction < 1) this->contraction = Real(1) / 1024;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, class Solution>
@@ -789,8 +807,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_05FA5D20_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_8310AEEE_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_8310AEEE_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -813,8 +831,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_05FA5D20_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_8310AEEE_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_8310AEEE_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
@@ -922,8 +940,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_05FA5D20_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_8310AEEE_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_8310AEEE_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -1011,8 +1029,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_REFINEMENT
-#define HAMGEN_05FA5D20_FLOAT64_REFINEMENT
+#ifndef HAMGEN_8310AEEE_FLOAT64_REFINEMENT
+#define HAMGEN_8310AEEE_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1050,6 +1068,7 @@ struct Refinement {
   Real contraction = 1;          // what a round moved of what the one before did
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
+  bool changes = false;
   bool found = true;  // was the solution at the end, or does the map not contract?
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
@@ -1073,10 +1092,8 @@ struct Refinement {
       if (ends) {
         ++rule.unchecked;
         found = true;
-        for (int k = 0; k < Components; ++k) {
-          slope[k] = gradient[k];
-          change[k] = 0;
-        }
+        take_slopes(gradient);
+        if (changes) forget_changes();
         return false;
       }
     }
@@ -1108,11 +1125,16 @@ struct Refinement {
     });
     learn_of(lengths_of(error));
     for (int k = 0; k < Components; ++k) change[k] = (gradient[k] - slope[k]) / amplifier;
+    changes = true;
     const bool more = goes_on(open, lack);
     for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
     return more;
   }
 
+  void forget_changes() {
+    changes = false;
+    for (Real& value : change) value = 0;
+  }
   Real times_counted() const {
     const Real left = 32768 * contraction;
     return left > 32 ? (left < 8192 ? left : Real(8192)) : Real(32);
@@ -1127,6 +1149,9 @@ struct Refinement {
       missing[j] = lack[j];
       moved[j] = 0;
     }
+    take_slopes(gradient);
+  }
+  void take_slopes(const Real* gradient) {
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
   }
   // Of unknowns that lack more than so many units of their own rounding.
@@ -1163,8 +1188,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_HISTORY
-#define HAMGEN_05FA5D20_FLOAT64_HISTORY
+#ifndef HAMGEN_8310AEEE_FLOAT64_HISTORY
+#define HAMGEN_8310AEEE_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1265,8 +1290,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_FORGET
-#define HAMGEN_05FA5D20_FLOAT64_FORGET
+#ifndef HAMGEN_8310AEEE_FLOAT64_FORGET
+#define HAMGEN_8310AEEE_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1276,17 +1301,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_05fa5d20::float64
+}  // namespace hamgen_8310aeee::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x77e1da50
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x2aea402a
 namespace fput::implicit_midpoint {
-inline namespace emitted_77e1da50 {
+inline namespace emitted_2aea402a {
 
-namespace numerics = ::hamgen_05fa5d20::float64;
+namespace numerics = ::hamgen_8310aeee::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1331,8 +1356,8 @@ struct Start {
 
 // grad H at the stage, whose momenta follow from its coordinates, and what the equations
 // lack there.
-inline void evaluate(const Parameters& par, const Coefficients& k, const State& z,
-                     const State& carry, Start& __restrict start) {
+inline void evaluate(const Parameters& par, const Coefficients& k, const State& z, const State&
+                     carry, Start& __restrict start) {
   potential_gradient(par, start.value, start.slope);
   for (int i = 0; i < n; ++i) {
     const Real p_push = k.half_h * start.slope[i];
@@ -1360,8 +1385,8 @@ inline void evaluate_in_parts(const Parameters& par, const Coefficients& k, cons
 }
 
 // The derivative of the equations' residual, q first, at a stage.
-inline void differentiate(const Parameters& par, const Coefficients& k, const Real* at,
-                          Matrix& __restrict matrix) {
+inline void differentiate(const Parameters& par, const Coefficients& k, const Real* at, Matrix&
+                          __restrict matrix) {
   matrix.clear();
   for (int i = 0; i < n; ++i) matrix.put(i, i, 1.0);
   for (int i = 1; i <= 31; ++i) {
@@ -1403,8 +1428,8 @@ inline void potential_curvature(const Parameters& par, const Real* q, const Real
 
 // False if the fixed point contracts so slowly that Newton's matrix is worth its work.
 inline bool contract(const Parameters& par, const Coefficients& k, Real h, const State& z,
-                     const State& carry, Start& __restrict start, State& __restrict dz,
-                     State& __restrict rest, StepReport& __restrict report) {
+                     const State& carry, Start& __restrict start, State& __restrict dz, State&
+                     __restrict rest, StepReport& __restrict report) {
   // Fixed-point iteration.
   start.rule.begin(3);
   for (int iteration = 1;; ++iteration) {
@@ -1454,8 +1479,8 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
 }
 
 inline bool newton(const Parameters& par, const Coefficients& k, Real h, const State& z,
-                   const State& carry, Start& __restrict start, State& __restrict dz,
-                   State& __restrict rest, StepReport& __restrict report) {
+                   const State& carry, Start& __restrict start, State& __restrict dz, State&
+                   __restrict rest, StepReport& __restrict report) {
   // Newton's iteration on what the equations lack.
   start.newton_rule.begin(start.known);
   for (int iteration = 1;; ++iteration) {
@@ -1623,9 +1648,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_77e1da50
+}  // namespace emitted_2aea402a
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x77e1da50
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x2aea402a
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -65,11 +65,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows knows nothing of the system.
-namespace hamgen_05fa5d20::float64 {
+namespace hamgen_8310aeee::float64 {
 using Real = double;
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_STEP_REPORT
-#define HAMGEN_05FA5D20_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_8310AEEE_FLOAT64_STEP_REPORT
+#define HAMGEN_8310AEEE_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -79,8 +79,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_05FA5D20_FLOAT64_TWO_SUM
-#define HAMGEN_05FA5D20_FLOAT64_TWO_SUM
+#ifndef HAMGEN_8310AEEE_FLOAT64_TWO_SUM
+#define HAMGEN_8310AEEE_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -90,14 +90,14 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-}  // namespace hamgen_05fa5d20::float64
+}  // namespace hamgen_8310aeee::float64
 
 #ifndef HAMGEN_METHOD_product_symplectic_euler_b
-#define HAMGEN_METHOD_product_symplectic_euler_b 0xa9434873
+#define HAMGEN_METHOD_product_symplectic_euler_b 0x4290f064
 namespace product::symplectic_euler_b {
-inline namespace emitted_a9434873 {
+inline namespace emitted_4290f064 {
 
-namespace numerics = ::hamgen_05fa5d20::float64;
+namespace numerics = ::hamgen_8310aeee::float64;
 using numerics::StepReport, numerics::two_sum;
 
 // What depends on h and the parameters alone.
@@ -112,8 +112,8 @@ inline Coefficients prepare(const Parameters&, Real h) {
 }
 
 // dz = Z - z for one step from z + carry.
-[[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h,
-                                      const State& z, const State& carry, State& dz) {
+[[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h, const State&
+                                      z, const State& carry, State& dz) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;
@@ -201,9 +201,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_a9434873
+}  // namespace emitted_4290f064
 }  // namespace product::symplectic_euler_b
-#elif HAMGEN_METHOD_product_symplectic_euler_b != 0xa9434873
+#elif HAMGEN_METHOD_product_symplectic_euler_b != 0x4290f064
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -67,7 +67,8 @@ void expect_counts(const std::string& compiler) {
   EXPECT_EQ(lines(differences(counted, table.at(version))), "")
       << version << ".  Is that meant?  Then this writes the new counts: " << kHowToWrite;
 
-  EXPECT_GE(slower_count, counted.at(name) + kMore);
+  // Compiled beside other code, a step may need half an instruction less.
+  EXPECT_GE(slower_count, counted.at(name) + kMore - 1);
   Counts with_slower = counted;
   with_slower[name] = slower_count;
   const std::vector<std::string> noticed = differences(with_slower, table.at(version));
