@@ -5,6 +5,7 @@
 struct Motion {
   Real move = 0;
   Real bend = 0;
+  Real least = 0;  // the least move of several unknowns
 };
 template <int Power>
 struct NewtonRule : Iteration {
@@ -35,6 +36,7 @@ struct NewtonRule : Iteration {
     contraction = select(lanes, Real(largest), contraction);
     motion.move = select(lanes, Real(0), motion.move);
     motion.bend = select(lanes, Real(0), motion.bend);
+    motion.least = select(lanes, Real(0), motion.least);
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, int Unknowns>

@@ -70,17 +70,21 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     notice(solution + first, count, lanes);
     Real move = 0;
     Real bend = 0;
+    Real slowest = largest;
     if (any(lanes)) {
       for (int j = 0; j < count; ++j) {
         moves[j] = select(lanes, past.template difference<0>(solution, first + j), moves[j]);
         bends[j] =
             select(lanes, past.template difference<Power + 1>(solution, first + j), bends[j]);
-        move += moves[j] * unit[j];
+        const Real part = moves[j] * unit[j];
+        move += part;
         bend += bends[j] * unit[j];
+        slowest = select(part < slowest, part, slowest);
       }
     }
     this->motion.move = select(lanes, move, Real(0));
     this->motion.bend = select(lanes, bend, Real(0));
+    this->motion.least = select(lanes, slowest, Real(0));
   }
   Mask is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
     Mask within = true;
@@ -118,6 +122,23 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     const Real bend = this->bend_of(size);
     return lost & (bend * size * size * 16 <= round_off * One::power(this->motion.move));
   }
+  // Most steps do, in all lanes.  Twice as strict as what follows is with each lane, which would
+  // let none of these go on: whether it is asked depends on the others.
+  bool ends_at_once(const Real& size, const Real& shortest, int count) {
+    if (this->checks) return false;
+    const double round_off = epsilon * count;
+    const Real least = 32 * epsilon * shortest;
+    const Real shown = select(least < 4 * round_off, least, Real(4 * round_off));
+    const Real measured = select(2048 * least < round_off, 1024 * least, Real(round_off / 2));
+    const Real slow = this->motion.least;
+    const Mask ends = this->is_next_lost(size, measured) & !this->unmeasured &
+                      (this->bend_of(size) * size * size * 1024 <= shown * slow * slow);
+    if (!all((!this->open) | ends)) return false;
+    this->taken = select(this->open, Real(1), this->taken);
+    this->still = false;
+    this->open = false;
+    return true;
+  }
   // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
   // the lengths again where no way counts.
   Mask of_each(const Real* moved, const Real* length, const Real* way, int count, int iterations) {
@@ -132,7 +153,9 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       const Real gone = way[j] * unit[j];
       nearest = select(gone < nearest, gone, nearest);
     }
-    const Mask lost = is_lost_in(way == length ? least : felt(least, nearest), size);
+    const Real shortest = way == length ? least : felt(least, nearest);
+    if (Power == 2 && iterations == 1 && ends_at_once(size, shortest, count)) return this->open;
+    const Mask lost = is_lost_in(shortest, size);
     Real uneven = 0;
     if (!all(lost)) {
       for (int j = 0; j < count; ++j) {

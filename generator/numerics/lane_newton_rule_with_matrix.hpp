@@ -37,16 +37,20 @@ struct NewtonRuleWithMatrix : NewtonRuleOfMany<2, Unknowns> {
     }
     Real move = 0;
     Real bend = 0;
+    Real slowest = largest;
     for (int j = 0; j < count; ++j) {
       const Real part = select(turns[j] > 0, magnitude(sum[j]) / turns[j], Real(1));
       const Real larger = select(turns[j] > turned[j], turns[j], turned[j]);
       this->moves[j] = select(lanes, magnitude(ways[j]) * part, this->moves[j]);
       this->bends[j] = select(lanes, larger, this->bends[j]);
       turned[j] = select(lanes, turns[j], turned[j]);
-      move += this->moves[j] * this->unit[j];
+      const Real gone = this->moves[j] * this->unit[j];
+      move += gone;
       bend += this->bends[j] * this->unit[j];
+      slowest = select(gone < slowest, gone, slowest);
     }
     this->motion.move = select(lanes, move, this->motion.move);
     this->motion.bend = select(lanes, bend, this->motion.bend);
+    this->motion.least = select(lanes, slowest, this->motion.least);
   }
 };

@@ -54,13 +54,26 @@ template <class Mask>
 inline bool is_set(Mask mask, int lane) {
   return mask[lane] != 0;
 }
-// By halves.
+#ifdef __AVX512DQ__
+template <class Mask>
+inline int signs_of(Mask mask) {
+  typedef long long Signs __attribute__((vector_size(64)));
+  Signs signs;
+  __builtin_memcpy(&signs, &mask, sizeof(Mask));
+  return static_cast<unsigned char>(__builtin_ia32_cvtq2mask512(signs));
+}
+#endif
+// By halves, where the machine has nothing better.
 template <class Mask>
 inline bool all(Mask mask) {
   if constexpr (sizeof(Mask) == 1) {
     return mask;
   } else if constexpr (sizeof(Mask) == 16) {
     return (mask[0] & mask[1]) != 0;
+#ifdef __AVX512DQ__
+  } else if constexpr (sizeof(Mask) == 64) {
+    return signs_of(mask) == 255;
+#endif
   } else {
     MaskOf<typename VectorOf<sizeof(Mask) / 16>::Numbers> half[2];
     __builtin_memcpy(half, &mask, sizeof(Mask));
@@ -73,6 +86,10 @@ inline bool any(Mask mask) {
     return mask;
   } else if constexpr (sizeof(Mask) == 16) {
     return (mask[0] | mask[1]) != 0;
+#ifdef __AVX512DQ__
+  } else if constexpr (sizeof(Mask) == 64) {
+    return signs_of(mask) != 0;
+#endif
   } else {
     MaskOf<typename VectorOf<sizeof(Mask) / 16>::Numbers> half[2];
     __builtin_memcpy(half, &mask, sizeof(Mask));
