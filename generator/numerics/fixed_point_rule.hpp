@@ -57,6 +57,10 @@ struct Distance {
 // contraction of the step before, four times over, but for every 32nd.  (With 64 units, pairs whose
 // bond is a 1e6th of their coordinates were off by 51 roundings: over such a way, amplified, their
 // force is not linear.)
+//
+// What grows a thousandfold after four increments, in which momenta and coordinates of different
+// units may have found each other, does not come back: it began with a prediction that led astray,
+// and would go on to numbers whose sines take ten times as long.
 template <int Cycle>
 struct FixedPointRule {
   Real least[Cycle] = {};  // 0 before the first increment
@@ -65,8 +69,10 @@ struct FixedPointRule {
   Real contraction = 1;    // of these two, in the step before
   int unchecked = 32;      // steps since it was measured
   int stuck = 0;
+  Real begun = 0;  // the largest of the first four increments
 
   void begin() {
+    begun = 0;
     for (Real& smallest : least) smallest = 0;
     stuck = 0;
     if (before > 0) {
@@ -90,6 +96,11 @@ struct FixedPointRule {
     before = size;
     size = moved.size;
     if (!(size <= largest)) return Verdict::failed;
+    if (iterations <= 4) {
+      if (size > begun) begun = size;
+    } else if (size > 1024 * begun) {
+      return Verdict::failed;
+    }
     const Real round_off = moved.round_off();
     if (moved.near() && size <= 64 * round_off) return Verdict::done;
     Real& smallest = least[iterations % Cycle];

@@ -47,9 +47,11 @@ struct FixedPointRule : Iteration {
   Mask known = false;      // has it been measured?
   bool checks = false;
   Real stuck = 0;
+  Real begun = 0;  // the largest of the first four increments
 
   void begin(const Turn& turn) {
     Iteration::begin(turn);
+    begun = 0;
     checks = turn.is_check();
     for (Real& smallest : least) smallest = 0;
     stuck = 0;
@@ -73,7 +75,13 @@ struct FixedPointRule : Iteration {
                        ((stuck >= 4) & (size <= 4096 * round_off));
     const Mask done = finite & ((moved.near() & (size <= 64 * round_off)) | rests);
     // What still decreases then does so by a few hundredths at a time: much more is missing.
-    return {done, !finite | (Mask(iterations >= 500) & !done)};
+    Mask lost = !finite;
+    if (iterations <= 4) {
+      begun = select(size > begun, size, begun);
+    } else {
+      lost = lost | (size > 1024 * begun);
+    }
+    return {done & !lost, lost | (Mask(iterations >= 500) & !done)};
   }
   // Gives the lanes that go on.
   Mask end(const Judgement& judgement) {

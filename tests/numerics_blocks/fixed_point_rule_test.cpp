@@ -47,6 +47,23 @@ TYPED_TEST(FixedPointRule, WhatStandsStillFarFromRoundingFails) {
   EXPECT_EQ(this->template stop<1>([](int) { return 5000.0; }, Verdict::failed), 500);
 }
 
+// A prediction that leads astray: what grows a thousandfold is lost, but in the first four
+// iterations, in which what is written in small units finds what is written in large ones.
+TYPED_TEST(FixedPointRule, WhatGrowsAThousandfoldFails) {
+  using Verdict = typename TypeParam::Answer;
+  const auto grows = [](double by) {
+    return [by](int i) {
+      double size = 5000;
+      for (int k = 4; k < i; ++k) size *= by;
+      return i < 4 ? 5000.0 : size;
+    };
+  };
+  EXPECT_EQ(this->template stop<2>(grows(2), Verdict::failed), 15);
+  EXPECT_EQ(this->template stop<1>(grows(1025), Verdict::failed), 5);
+  const auto finds = [](int i) { return i < 4 ? 1.0e5 : i == 4 ? 1.0e9 : 5000.0; };
+  EXPECT_EQ(this->template stop<1>(finds, Verdict::failed), 500);
+}
+
 // The increments that one step ends with are far below those that the next one begins with.
 TYPED_TEST(FixedPointRule, WhatWasReachedInAStepIsForgottenInTheNext) {
   using Verdict = typename TypeParam::Answer;
