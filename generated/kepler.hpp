@@ -97,11 +97,11 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_4f3d66fa::float64 {
+namespace hamgen_c9309962::float64 {
 using Real = double;
 
-#ifndef HAMGEN_4F3D66FA_FLOAT64_STEP_REPORT
-#define HAMGEN_4F3D66FA_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_C9309962_FLOAT64_STEP_REPORT
+#define HAMGEN_C9309962_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -111,15 +111,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_4F3D66FA_FLOAT64_VOCABULARY
-#define HAMGEN_4F3D66FA_FLOAT64_VOCABULARY
+#ifndef HAMGEN_C9309962_FLOAT64_VOCABULARY
+#define HAMGEN_C9309962_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_4F3D66FA_FLOAT64_TWO_SUM
-#define HAMGEN_4F3D66FA_FLOAT64_TWO_SUM
+#ifndef HAMGEN_C9309962_FLOAT64_TWO_SUM
+#define HAMGEN_C9309962_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -129,8 +129,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_4F3D66FA_FLOAT64_SUM_WITH_REST
-#define HAMGEN_4F3D66FA_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_C9309962_FLOAT64_SUM_WITH_REST
+#define HAMGEN_C9309962_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -142,14 +142,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_4F3D66FA_FLOAT64_VERDICT
-#define HAMGEN_4F3D66FA_FLOAT64_VERDICT
+#ifndef HAMGEN_C9309962_FLOAT64_VERDICT
+#define HAMGEN_C9309962_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_4F3D66FA_FLOAT64_NEWTON_RULE
-#define HAMGEN_4F3D66FA_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_C9309962_FLOAT64_NEWTON_RULE
+#define HAMGEN_C9309962_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -319,8 +319,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_4F3D66FA_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_4F3D66FA_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_C9309962_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_C9309962_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -346,10 +346,12 @@ struct NewtonRule {
 // In the first four steps, of which no motion is known, the first increment is that of the motion,
 // and tells nothing of what moves together: of pairs in free flight the next one was told to be
 // lost, and their distance was off by up to 1e6.  There an increment must be lost itself, and none
-// ends a step as the first.  Nor may the contraction that is seen there be believed: a pair that
-// moves as a whole shows none, 1e-9, and swings it did not know of were off by 6e7 roundings, until
-// they were measured: it is a 2^-10th at least.  Nor does what follows a first increment tell the
-// contraction of a swing, where that was of the pair: it must be less than epsilon^(2/3).
+// ends a step as the first.  Nor may the contraction that is seen be believed where it is next to
+// none: a pair that moves as a whole shows 1e-9, and what begins at zero, as long as its size is
+// taken to be far too small, is most of the sum and as linear; the pair's own swings, 1 to 10,
+// were off by 6e7 and by 800 roundings.  So it is a 2^-10th at least: with the matrix, which shows
+// what is curved, in those steps alone, and else in all.  Nor does what follows a first increment
+// tell the contraction of a swing, where that was of the pair: it must be less than epsilon^(2/3).
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -417,7 +419,11 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (fresh <= 0) return;
     --fresh;
     this->unchecked += 32;
-    if (1024 * this->contraction < 1) this->contraction = Real(1) / 1024;
+    doubt();
+  }
+  // Less is not believed.
+  void doubt() {
+    if (Power == 2 && 1024 * this->contraction < 1) this->contraction = Real(1) / 1024;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, class Solution>
@@ -435,6 +441,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       slowest = part < slowest ? part : slowest;
     }
     this->motion = {move, bend, slowest};
+    doubt();
   }
   // See Note [what its own motion shows of each].
   bool is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
@@ -583,8 +590,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_4F3D66FA_FLOAT64_HISTORY
-#define HAMGEN_4F3D66FA_FLOAT64_HISTORY
+#ifndef HAMGEN_C9309962_FLOAT64_HISTORY
+#define HAMGEN_C9309962_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -685,8 +692,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_4F3D66FA_FLOAT64_FORGET
-#define HAMGEN_4F3D66FA_FLOAT64_FORGET
+#ifndef HAMGEN_C9309962_FLOAT64_FORGET
+#define HAMGEN_C9309962_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -696,17 +703,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_4f3d66fa::float64
+}  // namespace hamgen_c9309962::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0xae417f5a
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0x545f0792
 namespace kepler::implicit_midpoint {
-inline namespace emitted_ae417f5a {
+inline namespace emitted_545f0792 {
 
-namespace numerics = ::hamgen_4f3d66fa::float64;
+namespace numerics = ::hamgen_c9309962::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRuleOfMany, numerics::History, numerics::forget;
 
@@ -912,9 +919,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_ae417f5a
+}  // namespace emitted_545f0792
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0xae417f5a
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x545f0792
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -56,9 +56,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   void notice(const Real* value, int count, const Mask& lanes) {
     age = (age + 1) % 16;
     const Mask unknown = lanes & (fresh > 0);
-    const Mask too_small = unknown & (1024 * this->contraction < 1);
     this->unmeasured = this->unmeasured | unknown;
-    this->contraction = select(too_small, Real(1.0 / 1024), this->contraction);
+    doubt(unknown);
     fresh = select(unknown, fresh - 1, fresh);
     if (age == 0 && any(lanes)) follow(value, count, lanes);
   }
@@ -85,6 +84,13 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     this->motion.move = select(lanes, move, Real(0));
     this->motion.bend = select(lanes, bend, Real(0));
     this->motion.least = select(lanes, slowest, Real(0));
+    doubt(lanes);
+  }
+  // Less is not believed.
+  void doubt(const Mask& lanes) {
+    if (Power == 1) return;
+    const Mask too_small = lanes & (1024 * this->contraction < 1);
+    this->contraction = select(too_small, Real(1.0 / 1024), this->contraction);
   }
   Mask is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
     Mask within = true;

@@ -23,10 +23,12 @@
 // In the first four steps, of which no motion is known, the first increment is that of the motion,
 // and tells nothing of what moves together: of pairs in free flight the next one was told to be
 // lost, and their distance was off by up to 1e6.  There an increment must be lost itself, and none
-// ends a step as the first.  Nor may the contraction that is seen there be believed: a pair that
-// moves as a whole shows none, 1e-9, and swings it did not know of were off by 6e7 roundings, until
-// they were measured: it is a 2^-10th at least.  Nor does what follows a first increment tell the
-// contraction of a swing, where that was of the pair: it must be less than epsilon^(2/3).
+// ends a step as the first.  Nor may the contraction that is seen be believed where it is next to
+// none: a pair that moves as a whole shows 1e-9, and what begins at zero, as long as its size is
+// taken to be far too small, is most of the sum and as linear; the pair's own swings, 1 to 10,
+// were off by 6e7 and by 800 roundings.  So it is a 2^-10th at least: with the matrix, which shows
+// what is curved, in those steps alone, and else in all.  Nor does what follows a first increment
+// tell the contraction of a swing, where that was of the pair: it must be less than epsilon^(2/3).
 //
 // Note [what every unknown lacks]
 // Where a step moves by the gradient of the last iteration and H'' times the increment, what is of
@@ -94,7 +96,11 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (fresh <= 0) return;
     --fresh;
     this->unchecked += 32;
-    if (1024 * this->contraction < 1) this->contraction = Real(1) / 1024;
+    doubt();
+  }
+  // Less is not believed.
+  void doubt() {
+    if (Power == 2 && 1024 * this->contraction < 1) this->contraction = Real(1) / 1024;
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, class Solution>
@@ -112,6 +118,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       slowest = part < slowest ? part : slowest;
     }
     this->motion = {move, bend, slowest};
+    doubt();
   }
   // See Note [what its own motion shows of each].
   bool is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {

@@ -88,6 +88,7 @@ TEST(StepsInLanes, KeepTheContractOfQuietUnknownsBesideLoudOnes) {
                         case_of("together", "fast", {.batch = 2}, 60),
                         case_of("together", "stiff", {.batch = 2}, 80),
                         case_of("in_flight", "quiet", {.batch = 2}, 60),
+                        case_of("in_flight_beside", "still", {.batch = 2}, 80),
                         case_of("in_flight", "far", {.batch = 2}, 20)});
 }
 
@@ -177,15 +178,17 @@ TEST(ContractIsBroken, WhereNoUnknownIsAskedByItself) {
         {"size * size * size <= epsilon * round_off", "size >= 0"}}},
       {case_of("in_flight", "far", {}, 20),
        {{"if (fresh > 0) return", "if (fresh > 9) return"},
-        {"if (fresh <= 0) return;", "if (fresh > 0) --fresh; return;"},
+        {"this->unchecked += 32;", ""},
+        {"Power == 2 && 1024 * this->contraction < 1", "false"},
         {"size * size * size <= epsilon * round_off", "size >= 0"}}},
       {case_of("in_flight", "quiet", {}, 60),
-       {{"if (fresh <= 0) return;", "if (fresh > 0) --fresh; return;"}}},
+       {{"this->unchecked += 32;", ""}, {"Power == 2 && 1024 * this->contraction < 1", "false"}}},
+      {case_of("in_flight_beside", "still", {}, 80), {{"slowest};\n    doubt();", "slowest};"}}},
       {case_of("together", "stiff", {}, 80),
        {{"size * size * size <= epsilon * round_off", "size >= 0"}}},
       {case_of("together", "fast", {}, 60),
        {{"magnitude(sum[j]) / turns[j]", "Real(1)"},
-        {"if (1024 * this->contraction < 1)", "if (this->contraction < 0)"},
+        {"Power == 2 && 1024 * this->contraction < 1", "false"},
         {"size * size * size <= epsilon * round_off", "size >= 0"}}},
       {case_of("beside_huge", "away", {}, 60), {{"return !converging;", "return true;"}}}};
   for (const Hole& hole : holes) {

@@ -212,6 +212,14 @@ scene far { l = 0.1; D = 2; x = 0; u = 20; y = 0.1001; v = 20; h = 0.05; steps =
 scene quiet { l = 0.2; D = 1; x = 5; u = 20; y = 5.20003; v = 20; h = 0.05; steps = 60 }
 scene short { l = 0.02; D = 0.02; x = -30; u = 20; y = 0.02003 - 30; v = 20; h = 0.05; steps = 60 }
 )"},
+    // A pair in flight beside what begins at rest at zero, and has no size yet.
+    SteepModel{"in_flight_beside", R"(coordinate x, y, z
+momentum u, v, r
+parameter k = 294
+parameter e = 1e-8
+H = (u^2 + v^2 + r^2)/2 + z^2/40 + k*(y - x - 1)^2/2*(1 + (y - x - 1)/3) + e*z*(y - x)
+scene still { k = 293.65731065706564; e = 8.561521460769279e-9; x = 0; y = 1.0000008672835774; u = 3.072556439445612; v = 3.072556439445612; h = 0.05; steps = 80 }
+)"},
     // Next to an equilibrium of y all its increments are of the size of rounding, and the fixed
     // point of gauss-4 hardly contracts.
     SteepModel{"next_to_rounding", R"(coordinate x, y

@@ -68,8 +68,8 @@ static inline void History_watch(const History* history, NewtonRule* rule, const
   if (unit && rule->fresh > 0) {
     --rule->fresh;
     rule->unchecked += 32;
-    if (1024 * rule->contraction < 1) rule->contraction = (Real)1 / 1024;
   }
+  if (unit && rule->power == 2 && 1024 * rule->contraction < 1) rule->contraction = (Real)1 / 1024;
   rule->move = History_error(history, 0, solution, first, count, unit);
   rule->bend = History_error(history, rule->power + 1, solution, first, count, unit);
   for (int j = 0; unit && j < count; ++j) {
