@@ -700,9 +700,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x9ed349ff
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0xee450424
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_9ed349ff {
+inline namespace emitted_ee450424 {
 
 namespace numerics = ::hamgen_c9309962::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -716,8 +716,9 @@ struct Start {
 };
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
-[[nodiscard]] inline StepReport solve(const Parameters&, Real h, const State& z, const State& carry,
-                                      Start& start, State& dz, State& rest) {
+[[nodiscard, gnu::always_inline]] inline StepReport solve(const Parameters&, Real h, const State& z,
+                                                          const State& carry, Start& start, State&
+                                                          dz, State& rest) {
   StepReport report;
   const Real q1 = z.q1;
   const Real q2 = z.q2;
@@ -892,9 +893,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_9ed349ff
+}  // namespace emitted_ee450424
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x9ed349ff
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0xee450424
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

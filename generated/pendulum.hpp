@@ -428,9 +428,9 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 #endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x3c27df83
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xac5bb8e1
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_3c27df83 {
+inline namespace emitted_ac5bb8e1 {
 
 namespace numerics = ::hamgen_c9309962::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -472,9 +472,10 @@ inline void derivatives(const Parameters& par, Derivatives& at) {
 }
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
-[[nodiscard]] inline StepReport solve(const Parameters& par, const Coefficients& k, Real h,
-                                      const State& z, const State& carry, Start& start, Derivatives&
-                                      at, State& dz, State& rest) {
+[[nodiscard, gnu::always_inline]] inline StepReport solve(const Parameters& par, const Coefficients&
+                                                          k, Real h, const State& z, const State&
+                                                          carry, Start& start, Derivatives& at,
+                                                          State& dz, State& rest) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;
@@ -621,9 +622,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_3c27df83
+}  // namespace emitted_ac5bb8e1
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x3c27df83
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xac5bb8e1
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

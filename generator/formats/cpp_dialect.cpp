@@ -53,8 +53,10 @@ std::string CppDialect::head(const Routine& routine,
   const std::string type = routine.result.type.empty() ? "void" : routine.result.type;
   const std::string list = joined_texts(arguments, ", ");
   if (routine.of_run) return fmt::format("{} {}({})", type, routine.name, list);
-  return fmt::format("{}inline {} {}({})", type == "StepReport" ? "[[nodiscard]] " : "", type,
-                     routine.name, list);
+  const char* attributes = routine.inlined        ? "[[nodiscard, gnu::always_inline]] "
+                           : type == "StepReport" ? "[[nodiscard]] "
+                                                  : "";
+  return fmt::format("{}inline {} {}({})", attributes, type, routine.name, list);
 }
 
 std::string CppDialect::call(const std::string&, const std::string& object,

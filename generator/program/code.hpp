@@ -340,7 +340,8 @@ struct Routine {
   std::vector<Argument> arguments = {};
   std::map<std::string, Place> places = {};  // of symbols that are no locals
   Body body = {};
-  bool of_run = false;  // is it given what a run keeps, as "self"?
+  bool of_run = false;   // is it given what a run keeps, as "self"?
+  bool inlined = false;  // wherever it is called
   // Of trajectories in lanes: objects and fields that it changes only in those of start.turn.
   std::vector<Place> in_turn = {};
 };

@@ -32,6 +32,9 @@ class CppReader {
     while (cursor_.accept("[")) {
       cursor_.expect("[");
       cursor_.expect("nodiscard");
+      if (cursor_.accept(",")) {
+        for (const char* part : {"gnu", "::", "always_inline"}) cursor_.expect(part);
+      }
       cursor_.expect("]");
       cursor_.expect("]");
     }
