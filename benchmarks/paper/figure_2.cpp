@@ -10,7 +10,7 @@
 namespace hamgen::paper {
 namespace {
 
-constexpr long double kStep = 0.1L;  // the caption does not say
+constexpr long double kStepOfFigure2 = 0.1L;  // the caption does not say
 constexpr std::array<long double, 2> kAngles = {0.8L, 3.1L};
 
 // beta = gamma = sqrt(alpha (1 - alpha)), the paper's symplectic rotation, or 0.
@@ -20,14 +20,14 @@ Gauge gauge_of(int tenths, bool rotation) {
   return {.alpha = alpha, .beta = rotated, .gamma = rotated};
 }
 
-void write_data(const Study& study) {
+void write_figure_2(const Study& study) {
   DataTable data;
   for (const bool rotation : {true, false}) {
     for (const long double q : kAngles) {
       const long steps = q < 1 ? 800 : 2500;  // about two periods
       for (int tenths = 0; tenths <= 5; ++tenths) {
         trace(data, fmt::format("alpha = 0.{}", tenths), study.member,
-              {.q = q, .h = kStep, .gauge = gauge_of(tenths, rotation)}, steps, 800);
+              {.q = q, .h = kStepOfFigure2, .gauge = gauge_of(tenths, rotation)}, steps, 800);
       }
     }
   }
@@ -37,11 +37,11 @@ void write_data(const Study& study) {
 // The largest distance of two methods' states over 1000 steps.
 double difference(const CompiledScheme& a, const Gauge& gauge, const CompiledScheme& b) {
   std::vector<State> states;
-  static_cast<void>(integrate(a, {.q = 3.1L, .h = kStep, .gauge = gauge}, 1000,
+  static_cast<void>(integrate(a, {.q = 3.1L, .h = kStepOfFigure2, .gauge = gauge}, 1000,
                               [&](const Sample& sample) { states.push_back(sample.state); }));
   double largest = 0.0;
   std::size_t i = 0;
-  static_cast<void>(integrate(b, {.q = 3.1L, .h = kStep}, 1000, [&](const Sample& sample) {
+  static_cast<void>(integrate(b, {.q = 3.1L, .h = kStepOfFigure2}, 1000, [&](const Sample& sample) {
     largest = std::max(largest, distance(sample.state, states[i++]));
   }));
   return largest;
@@ -50,7 +50,7 @@ double difference(const CompiledScheme& a, const Gauge& gauge, const CompiledSch
 }  // namespace
 
 Section figure_2(const Study& study) {
-  write_data(study);
+  write_figure_2(study);
   // [rotation or not][angle][alpha from 0 to 1 by tenths]
   using Spreads = std::array<std::array<std::array<double, 11>, 2>, 2>;
   Spreads spread{};
@@ -61,8 +61,9 @@ Section figure_2(const Study& study) {
     const std::size_t row = i / 22;
     const std::size_t angle = i / 11 % 2;
     const std::size_t tenths = i % 11;
-    const Start start{
-        .q = kAngles[angle], .h = kStep, .gauge = gauge_of(static_cast<int>(tenths), row == 0)};
+    const Start start{.q = kAngles[angle],
+                      .h = kStepOfFigure2,
+                      .gauge = gauge_of(static_cast<int>(tenths), row == 0)};
     spread[row][angle][tenths] = integrate(study.member, start, study.steps()).spread();
     by_sweeps[row][angle][tenths] = integrate(study.sweeps, start, study.steps()).spread();
     early[row][angle][tenths] = integrate(study.member, start, study.steps() / 2).spread();
@@ -133,7 +134,7 @@ Section figure_2(const Study& study) {
   }
   for (const CompiledScheme& scheme : study.orders) {
     const auto text = [&](long double q) {
-      return number(integrate(scheme, {.q = q, .h = kStep}, study.steps()).spread());
+      return number(integrate(scheme, {.q = q, .h = kStepOfFigure2}, study.steps()).spread());
     };
     table.rows.push_back({scheme.name, "", "", text(0.8L), text(3.1L)});
   }

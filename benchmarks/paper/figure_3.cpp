@@ -13,22 +13,22 @@
 namespace hamgen::paper {
 namespace {
 
-constexpr std::array<long double, 4> kAngles = {0.8L, 1.6L, 2.5L, 3.13L};
+constexpr std::array<long double, 4> kAnglesOfFigure3 = {0.8L, 1.6L, 2.5L, 3.13L};
 constexpr Gauge kRotated = {.alpha = 0.1L, .beta = 0.3L, .gamma = 0.3L};
-constexpr long double kStep = 0.7L;
+constexpr long double kLargeStep = 0.7L;
 
-void write_data(const Study& study) {
+void write_figure_3(const Study& study) {
   DataTable data;
   for (const Gauge& gauge : {Gauge{}, kRotated}) {
-    for (const long double q : kAngles) {
+    for (const long double q : kAnglesOfFigure3) {
       data.block(fmt::format("q(0) = {:.4g}", static_cast<double>(q)));
-      static_cast<void>(
-          integrate(study.sweeps, {.q = q, .h = kStep, .gauge = gauge}, 800, [&](const Sample& s) {
-            data.row({s.state.q, s.state.p});
-          }));
+      static_cast<void>(integrate(study.sweeps, {.q = q, .h = kLargeStep, .gauge = gauge}, 800,
+                                  [&](const Sample& s) {
+                                    data.row({s.state.q, s.state.p});
+                                  }));
     }
   }
-  for (const long double q : kAngles) {  // p^2/2 = eps (cos q - cos q0), q = q0 sin(u)
+  for (const long double q : kAnglesOfFigure3) {  // p^2/2 = eps (cos q - cos q0), q = q0 sin(u)
     data.block("exact");
     for (int i = 0; i <= 400; ++i) {
       const long double x = q * std::sin(std::acos(-1.0L) * i / 200);
@@ -74,7 +74,7 @@ std::string spreads_text(std::span<const Fate> fates) {
 }  // namespace
 
 Section figure_3(const Study& study) {
-  write_data(study);
+  write_figure_3(study);
   const long steps = study.steps() / 10;
   Section section{.title = "Figure 3: orbits with h = 0.7",
                   .picture = "figure_3.png",
@@ -85,9 +85,9 @@ Section figure_3(const Study& study) {
   for (const CompiledScheme& scheme : study.orders) table.header.push_back(scheme.name);
   double undeformed = 0.0;
   double deformed = 0.0;
-  for (const long double q : kAngles) {
+  for (const long double q : kAnglesOfFigure3) {
     const auto relative = [&](const CompiledScheme& scheme, const Gauge& gauge) {
-      return integrate(scheme, {.q = q, .h = kStep, .gauge = gauge}, steps).max_error() /
+      return integrate(scheme, {.q = q, .h = kLargeStep, .gauge = gauge}, steps).max_error() /
              static_cast<double>(kEps);
     };
     const double left = relative(study.sweeps, {});

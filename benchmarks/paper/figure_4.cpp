@@ -11,8 +11,8 @@
 namespace hamgen::paper {
 namespace {
 
-constexpr long double kAngle = 0.8L;
-constexpr long double kStep = 0.2L;
+constexpr long double kAngleOfFigure4 = 0.8L;
+constexpr long double kStepOfFigure4 = 0.2L;
 constexpr long double kPaperValue = -3.4e-5L;
 
 Gauge equal(long double value) { return {.alpha = 0.5L, .beta = value, .gamma = value}; }
@@ -39,19 +39,20 @@ struct Errors {
 };
 
 constexpr int kRefinements = 6;
-constexpr long double kTime = 100.0L;
+constexpr long double kTimeOfFigure4 = 100.0L;
 
 // [line][refinement]: h = 1, 1/2, ..., 1/32.
 std::vector<std::array<Errors, kRefinements>> errors_of(const Study& study,
                                                         const std::vector<Line>& lines) {
-  const State exact = exact_state(study.reference, kAngle, kTime);
+  const State exact = exact_state(study.reference, kAngleOfFigure4, kTimeOfFigure4);
   std::vector<std::array<Errors, kRefinements>> errors(lines.size());
   in_parallel(static_cast<int>(lines.size()) * kRefinements, [&](int i) {
     const Line& line = lines[static_cast<std::size_t>(i / kRefinements)];
     const int refinement = i % kRefinements;
-    const Orbit orbit = integrate(
-        *line.scheme, {.q = kAngle, .h = std::ldexp(1.0L, -refinement), .gauge = line.gauge},
-        100L << refinement);
+    const Orbit orbit =
+        integrate(*line.scheme,
+                  {.q = kAngleOfFigure4, .h = std::ldexp(1.0L, -refinement), .gauge = line.gauge},
+                  100L << refinement);
     errors[static_cast<std::size_t>(i / kRefinements)][static_cast<std::size_t>(refinement)] = {
         .spread = orbit.spread(), .state = distance(orbit.end, exact)};
   });
@@ -82,24 +83,24 @@ std::array<double, 9> step_times(const CompiledScheme& scheme, long steps) {
   return samples;
 }
 
-void write_data(const Study& study, const std::vector<Line>& lines,
-                const std::vector<std::array<Errors, kRefinements>>& errors, long double best) {
+void write_figure_4(const Study& study, const std::vector<Line>& lines,
+                    const std::vector<std::array<Errors, kRefinements>>& errors, long double best) {
   DataTable sweep;
   for (const long double value : {-0.5L, -0.25L, 0.0L, 0.25L, 0.5L}) {
     trace(sweep, fmt::format("{:.4g}", static_cast<double>(value)), study.extended,
-          {.q = kAngle, .h = kStep, .gauge = equal(value)}, 400, 400);
+          {.q = kAngleOfFigure4, .h = kStepOfFigure4, .gauge = equal(value)}, 400, 400);
   }
   sweep.write(study.data / "figure_4_sweep.dat");
   DataTable small;
   for (const long double value : {0.0L, kPaperValue, best}) {
     trace(small, fmt::format("{:.3g}", static_cast<double>(value)), study.extended,
-          {.q = kAngle, .h = kStep, .gauge = equal(value)}, 400, 400);
+          {.q = kAngleOfFigure4, .h = kStepOfFigure4, .gauge = equal(value)}, 400, 400);
   }
   small.write(study.data / "figure_4_small.dat");
   DataTable others;
-  trace(others, "midpoint", study.extended, {.q = kAngle, .h = kStep}, 400, 400);
+  trace(others, "midpoint", study.extended, {.q = kAngleOfFigure4, .h = kStepOfFigure4}, 400, 400);
   for (const CompiledScheme& scheme : study.splittings)
-    trace(others, scheme.name, scheme, {.q = kAngle, .h = kStep}, 400, 400);
+    trace(others, scheme.name, scheme, {.q = kAngleOfFigure4, .h = kStepOfFigure4}, 400, 400);
   others.write(study.data / "figure_4_splittings.dat");
   DataTable order;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -117,29 +118,30 @@ void write_data(const Study& study, const std::vector<Line>& lines,
 Section figure_4(const Study& study) {
   const long steps = study.quick ? 2000 : 20'000;
   const auto spread = [&](const CompiledScheme& scheme, long double value, long double h) {
-    return integrate(scheme, {.q = kAngle, .h = h, .gauge = equal(value)}, steps).spread();
+    return integrate(scheme, {.q = kAngleOfFigure4, .h = h, .gauge = equal(value)}, steps).spread();
   };
   const auto max_error = [&](const CompiledScheme& scheme, long double value, long double h) {
-    return integrate(scheme, {.q = kAngle, .h = h, .gauge = equal(value)}, steps).max_error();
+    return integrate(scheme, {.q = kAngleOfFigure4, .h = h, .gauge = equal(value)}, steps)
+        .max_error();
   };
   // Where a measure of the error is least.
   const auto best_value = [&](const auto& measure, long double h) {
     return minimise([&](long double value) { return measure(study.extended, value, h); }, -1e-3L,
                     1e-3L, 1e-10L);
   };
-  const long double best = best_value(spread, kStep);
-  const double best_spread = spread(study.extended, best, kStep);
-  const double paper_spread = spread(study.extended, kPaperValue, kStep);
-  const double midpoint_spread = spread(study.extended, 0.0L, kStep);
+  const long double best = best_value(spread, kStepOfFigure4);
+  const double best_spread = spread(study.extended, best, kStepOfFigure4);
+  const double paper_spread = spread(study.extended, kPaperValue, kStepOfFigure4);
+  const double midpoint_spread = spread(study.extended, 0.0L, kStepOfFigure4);
 
   const std::vector<Line> lines = lines_of_order_plot(study);
   const auto errors = errors_of(study, lines);
-  write_data(study, lines, errors, best);
+  write_figure_4(study, lines, errors, best);
 
-  const Orbit below =
-      integrate(study.extended, {.q = kAngle, .h = kStep, .gauge = equal(-0.5L)}, steps);
-  const Orbit above =
-      integrate(study.extended, {.q = kAngle, .h = kStep, .gauge = equal(0.5L)}, steps);
+  const Orbit below = integrate(
+      study.extended, {.q = kAngleOfFigure4, .h = kStepOfFigure4, .gauge = equal(-0.5L)}, steps);
+  const Orbit above = integrate(
+      study.extended, {.q = kAngleOfFigure4, .h = kStepOfFigure4, .gauge = equal(0.5L)}, steps);
 
   Table order{.header = {"", "order of the energy error", "order of the state error",
                          "spread at h = 1/8", "state error at h = 1/8, t = 100"}};
@@ -180,7 +182,7 @@ Section figure_4(const Study& study) {
            "the spread is least at {:.3e}: {}; at -3.4e-5 it is {}, at 0 {}. The largest "
            "abs(H - H(0)) is least at {:.3e}. With h = 0.1 these two would be {:.3e} and {:.3e}",
            static_cast<double>(best), number(best_spread), number(paper_spread),
-           number(midpoint_spread), static_cast<double>(best_value(max_error, kStep)),
+           number(midpoint_spread), static_cast<double>(best_value(max_error, kStepOfFigure4)),
            static_cast<double>(best_value(spread, 0.1L)),
            static_cast<double>(best_value(max_error, 0.1L))),
        verdict(std::fabs(paper_spread / best_spread - 1) < 0.05, paper_spread < midpoint_spread)},
@@ -192,8 +194,8 @@ Section figure_4(const Study& study) {
                std::fabs(energy_order[3] - 1) < 0.05)}};
   for (const CompiledScheme& scheme : study.splittings) {
     const auto ratio = [&](long double q) {
-      return integrate(scheme, {.q = q, .h = kStep}, steps).spread() /
-             integrate(study.sweeps, {.q = q, .h = kStep}, steps).spread();
+      return integrate(scheme, {.q = q, .h = kStepOfFigure4}, steps).spread() /
+             integrate(study.sweeps, {.q = q, .h = kStepOfFigure4}, steps).spread();
     };
     std::string ratios;
     double least = 1e300;

@@ -12,13 +12,15 @@
 namespace hamgen::paper {
 namespace {
 
-constexpr long double kAngle = 3.1L;
-constexpr long double kStep = 0.1L;
+constexpr long double kAngleOfFigure5 = 3.1L;
+constexpr long double kStepOfFigure5 = 0.1L;
 constexpr long kHalfPeriod = 607;  // steps; the period is 121.47
 constexpr long double kFixedGamma = -0.007L;
 
 Start start_of(long double beta, long double gamma) {
-  return {.q = kAngle, .h = kStep, .gauge = {.alpha = 0.5L, .beta = beta, .gamma = gamma}};
+  return {.q = kAngleOfFigure5,
+          .h = kStepOfFigure5,
+          .gauge = {.alpha = 0.5L, .beta = beta, .gamma = gamma}};
 }
 
 // The energy error where the pendulum first passes q = angle, between steps linear.
@@ -38,7 +40,7 @@ long double error_at(const Study& study, const Start& start, long double angle) 
 // Local extrema of the energy error inside a half period.
 int extrema(const CompiledScheme& scheme) {
   std::vector<long double> errors;
-  static_cast<void>(integrate(scheme, {.q = kAngle, .h = kStep}, kHalfPeriod,
+  static_cast<void>(integrate(scheme, {.q = kAngleOfFigure5, .h = kStepOfFigure5}, kHalfPeriod,
                               [&](const Sample& sample) { errors.push_back(sample.error); }));
   int count = 0;
   for (std::size_t i = 2; i < errors.size(); ++i)
@@ -63,11 +65,11 @@ Table table_of_orders(const Study& study, const Pair& best) {
   add("midpoint rule", study.extended, start_of(0, 0));
   add("beta = -h E/12, gamma = -h/12", study.extended, start_of(best.beta, best.gamma));
   for (const CompiledScheme& scheme : study.orders)
-    add(scheme.name, scheme, {.q = kAngle, .h = kStep});
+    add(scheme.name, scheme, {.q = kAngleOfFigure5, .h = kStepOfFigure5});
   return table;
 }
 
-void write_data(const Study& study, const Pair& best) {
+void write_figure_5(const Study& study, const Pair& best) {
   DataTable data;
   const auto add = [&](long double beta, long double gamma, const std::string& title) {
     trace(data, title, study.extended, start_of(beta, gamma), kHalfPeriod, kHalfPeriod);
@@ -78,18 +80,20 @@ void write_data(const Study& study, const Pair& best) {
   }
   for (const long double gamma : {-0.005L, -0.007L, -0.00833321735568L, -0.01L, -0.012L})
     add(best.beta, gamma, fmt::format("{:.3g}", static_cast<double>(gamma)));
-  add(kPaperB * kStep, kPaperC * kStep, "the paper's pair");
-  trace(data, "midpoint", study.extended, {.q = kAngle, .h = kStep}, kHalfPeriod, kHalfPeriod);
+  add(kPaperB * kStepOfFigure5, kPaperC * kStepOfFigure5, "the paper's pair");
+  trace(data, "midpoint", study.extended, {.q = kAngleOfFigure5, .h = kStepOfFigure5}, kHalfPeriod,
+        kHalfPeriod);
   for (const CompiledScheme& scheme : study.splittings)
-    trace(data, scheme.name, scheme, {.q = kAngle, .h = kStep}, kHalfPeriod, kHalfPeriod);
+    trace(data, scheme.name, scheme, {.q = kAngleOfFigure5, .h = kStepOfFigure5}, kHalfPeriod,
+          kHalfPeriod);
   data.write(study.data / "figure_5.dat");
 }
 
 }  // namespace
 
 Section figure_5(const Study& study) {
-  const Pair analytic = analytic_pair(kAngle, kStep);
-  write_data(study, analytic);
+  const Pair analytic = analytic_pair(kAngleOfFigure5, kStepOfFigure5);
+  write_figure_5(study, analytic);
   const long double bottom = 0.0L;
   const long double level = std::acos(-1.0L) / 2;  // cos q = 0
   Table table{.header = {"beta", "gamma", "at q = 0", "formula", "at q = pi/2", "formula"}};

@@ -9,11 +9,13 @@
 namespace hamgen::paper {
 namespace {
 
-constexpr long double kAngle = 3.1L;
-constexpr long double kStep = 0.1L;
-constexpr long kTwoPeriods = 2430;
+constexpr long double kAngleOfFigure6 = 3.1L;
+constexpr long double kStepOfFigure6 = 0.1L;
+constexpr long kStepsOfFigure6 = 2430;
 
-Start start_of(const Pair& pair) { return {.q = kAngle, .h = kStep, .gauge = gauge_of(pair)}; }
+Start start_of(const Pair& pair) {
+  return {.q = kAngleOfFigure6, .h = kStepOfFigure6, .gauge = gauge_of(pair)};
+}
 
 // Spreads on a grid around `middle`, written for gnuplot.  Returns the least.
 double plane(const Study& study, const Pair& middle, const Pair& half_width,
@@ -27,7 +29,7 @@ double plane(const Study& study, const Pair& middle, const Pair& half_width,
   in_parallel(side, [&](int i) {
     for (int k = 0; k < side; ++k) {
       spreads[static_cast<std::size_t>(i * side + k)] =
-          integrate(study.extended, start_of(at(i, k)), kTwoPeriods).spread();
+          integrate(study.extended, start_of(at(i, k)), kStepsOfFigure6).spread();
     }
   });
   DataTable data;
@@ -49,7 +51,8 @@ void write_traces(const Study& study, const Pair& best, const Pair& least_change
   const auto add = [&](const std::string& title, const CompiledScheme& scheme, const Pair& pair) {
     trace(data, title, scheme, start_of(pair), 1215, 1215);
   };
-  add("paper", study.extended, {.beta = kPaperB * kStep, .gamma = kPaperC * kStep});
+  add("paper", study.extended,
+      {.beta = kPaperB * kStepOfFigure6, .gamma = kPaperC * kStepOfFigure6});
   add("least spread", study.extended, best);
   add("least change", study.extended, least_change);
   for (const CompiledScheme& scheme : study.splittings) add(scheme.name, scheme, {});
@@ -59,14 +62,15 @@ void write_traces(const Study& study, const Pair& best, const Pair& least_change
 }  // namespace
 
 Section figure_6(const Study& study) {
-  const Pair analytic = analytic_pair(kAngle, kStep);
-  const Pair paper = {.beta = kPaperB * kStep, .gamma = kPaperC * kStep};
-  const Pair best = best_pair(study.extended, kAngle, kStep, study.quick ? 500 : 2000);
+  const Pair analytic = analytic_pair(kAngleOfFigure6, kStepOfFigure6);
+  const Pair paper = {.beta = kPaperB * kStepOfFigure6, .gamma = kPaperC * kStepOfFigure6};
+  const Pair best =
+      best_pair(study.extended, kAngleOfFigure6, kStepOfFigure6, study.quick ? 500 : 2000);
   // The other reading of "maximum variation": from one step to the next.
   const Pair least_change = minimise(
       [&](const Pair& pair) {
         return static_cast<double>(
-            integrate(study.extended, start_of(pair), kTwoPeriods).largest_change);
+            integrate(study.extended, start_of(pair), kStepsOfFigure6).largest_change);
       },
       best, {.beta = 1e-9L, .gamma = 1e-7L}, 1e-3);
 

@@ -9,7 +9,7 @@
 namespace hamgen::paper {
 namespace {
 
-constexpr long double kAngle = 3.1L;
+constexpr long double kAngleOfFigure7 = 3.1L;
 constexpr double kTwoPeriods = 243.0;
 
 struct Tuned {
@@ -25,7 +25,7 @@ std::vector<Tuned> search(const Study& study) {
   if (study.quick) found.erase(found.begin());
   in_parallel(static_cast<int>(found.size()), [&](int i) {
     Tuned& tuned = found[static_cast<std::size_t>(i)];
-    tuned.pair = best_pair(study.extended, kAngle, tuned.h, study.quick ? 500 : 2000);
+    tuned.pair = best_pair(study.extended, kAngleOfFigure7, tuned.h, study.quick ? 500 : 2000);
   });
   return found;
 }
@@ -49,7 +49,7 @@ long double limit(const std::vector<Tuned>& tuned, long double (Tuned::*value)()
 }
 
 double spread(const CompiledScheme& scheme, long double h, const Gauge& gauge = {}) {
-  return integrate(scheme, {.q = kAngle, .h = h, .gauge = gauge},
+  return integrate(scheme, {.q = kAngleOfFigure7, .h = h, .gauge = gauge},
                    static_cast<long>(kTwoPeriods / static_cast<double>(h)))
       .spread();
 }
@@ -73,7 +73,7 @@ Spreads measure_spreads(const Study& study, const std::vector<Tuned>& tuned) {
     const long double h = result.h[static_cast<std::size_t>(i)];
     std::vector<double>& row = result.values[static_cast<std::size_t>(i)];
     row = {spread(study.extended, h), spread(study.extended, h, paper_pair(h)),
-           spread(study.extended, h, gauge_of(analytic_pair(kAngle, h)))};
+           spread(study.extended, h, gauge_of(analytic_pair(kAngleOfFigure7, h)))};
     // No search for h = 0.007: that is where the law is tried.
     row.push_back(
         i == 0 ? NAN
@@ -85,7 +85,8 @@ Spreads measure_spreads(const Study& study, const std::vector<Tuned>& tuned) {
   return result;
 }
 
-void write_data(const Study& study, const std::vector<Tuned>& tuned, const Spreads& spreads) {
+void write_figures_7_and_8(const Study& study, const std::vector<Tuned>& tuned,
+                           const Spreads& spreads) {
   DataTable law;
   law.block("h beta gamma");
   for (const Tuned& t : tuned) law.row({t.h, t.pair.beta, t.pair.gamma});
@@ -103,11 +104,12 @@ void write_data(const Study& study, const std::vector<Tuned>& tuned, const Sprea
     const auto steps = static_cast<long>(kTwoPeriods / 2 / static_cast<double>(h));
     const auto add = [&](const std::string& name, const CompiledScheme& scheme,
                          const Gauge& gauge = {}) {
-      trace(data, name, scheme, {.q = kAngle, .h = h, .gauge = gauge}, steps, 600);
+      trace(data, name, scheme, {.q = kAngleOfFigure7, .h = h, .gauge = gauge}, steps, 600);
     };
     add("midpoint rule", study.extended);
     add("the paper's beta = b h, gamma = c h", study.extended, paper_pair(h));
-    add("beta = -h E/12, gamma = -h/12", study.extended, gauge_of(analytic_pair(kAngle, h)));
+    add("beta = -h E/12, gamma = -h/12", study.extended,
+        gauge_of(analytic_pair(kAngleOfFigure7, h)));
     for (const auto* group : {&study.splittings, &study.orders}) {
       for (const CompiledScheme& scheme : *group) add(scheme.name, scheme);
     }
@@ -131,14 +133,14 @@ struct StateErrors {
 StateErrors state_errors(const Study& study) {
   StateErrors result{.table = {.header = {"state error at t = 100, h = 0.1", "q(0) = 3.1",
                                           "its order", "q(0) = 0.8", "spread, q(0) = 0.8"}}};
-  const State exact_31 = exact_state(study.reference, kAngle, 100.0L);
+  const State exact_31 = exact_state(study.reference, kAngleOfFigure7, 100.0L);
   const State exact_08 = exact_state(study.reference, 0.8L, 100.0L);
   const auto add = [&](const std::string& name, const CompiledScheme& scheme, const auto& gauge) {
     const auto orbit = [&](long double q, long double h, long steps) {
       return integrate(scheme, {.q = q, .h = h, .gauge = gauge(h)}, steps);
     };
-    const double coarse = distance(orbit(kAngle, 0.1L, 1000).end, exact_31);
-    const double fine = distance(orbit(kAngle, 0.05L, 2000).end, exact_31);
+    const double coarse = distance(orbit(kAngleOfFigure7, 0.1L, 1000).end, exact_31);
+    const double fine = distance(orbit(kAngleOfFigure7, 0.05L, 2000).end, exact_31);
     const Orbit other = orbit(0.8L, 0.1L, 1000);
     result.order.push_back(std::log2(coarse / fine));
     result.coarse.push_back(coarse);
@@ -160,10 +162,10 @@ StateErrors state_errors(const Study& study) {
 Section figures_7_and_8(const Study& study) {
   const std::vector<Tuned> tuned = search(study);
   const Spreads spreads = measure_spreads(study, tuned);
-  write_data(study, tuned, spreads);
+  write_figures_7_and_8(study, tuned, spreads);
   const long double b = limit(tuned, &Tuned::b);
   const long double c = limit(tuned, &Tuned::c);
-  const long double exact_b = -hamiltonian(kAngle, 0.0L) / 12;
+  const long double exact_b = -hamiltonian(kAngleOfFigure7, 0.0L) / 12;
   const long double exact_c = -1.0L / 12;
   const Tuned& at_01 = *std::ranges::find(tuned, 0.1L, &Tuned::h);
   double bend = 0.0;

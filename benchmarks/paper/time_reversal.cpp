@@ -11,8 +11,8 @@ namespace {
 
 // Over one period of a moderate swing: near the separatrix the two members' periods, which differ
 // by O(h) like everything else, would hide the comparison.
-constexpr long double kAngle = 0.8L;
-constexpr long double kTime = 37.8L;
+constexpr long double kAngleOfReversal = 0.8L;
+constexpr long double kTimeOfReversal = 37.8L;
 
 Gauge rotation(long double alpha) {
   const long double rotated = std::sqrt(alpha * (1 - alpha));
@@ -21,8 +21,10 @@ Gauge rotation(long double alpha) {
 
 std::vector<long double> errors(const Study& study, const Gauge& gauge, long double h) {
   std::vector<long double> result;
-  const auto steps = static_cast<long>(std::lround(std::fabs(static_cast<double>(kTime / h))));
-  static_cast<void>(integrate(study.extended, {.q = kAngle, .h = h, .gauge = gauge}, steps,
+  const auto steps =
+      static_cast<long>(std::lround(std::fabs(static_cast<double>(kTimeOfReversal / h))));
+  static_cast<void>(integrate(study.extended, {.q = kAngleOfReversal, .h = h, .gauge = gauge},
+                              steps,
                               [&](const Sample& sample) { result.push_back(sample.error); }));
   return result;
 }
@@ -59,16 +61,16 @@ Asymmetry asymmetry(const Study& study, long double alpha, long double h) {
 double return_distance(const Study& study, const CompiledScheme& scheme, const Gauge& there,
                        const Gauge& back) {
   const long steps = study.quick ? 1000 : 10'000;
-  const Orbit out = integrate(scheme, {.q = kAngle, .h = 0.1L, .gauge = there}, steps);
+  const Orbit out = integrate(scheme, {.q = kAngleOfReversal, .h = 0.1L, .gauge = there}, steps);
   const Orbit home = integrate_from(scheme, out.end, {.h = -0.1L, .gauge = back}, steps);
-  return distance(home.end, {.q = kAngle});
+  return distance(home.end, {.q = kAngleOfReversal});
 }
 
 double return_distance(const Study& study, const Gauge& there, const Gauge& back) {
   return return_distance(study, study.extended, there, back);
 }
 
-void write_data(const Study& study) {
+void write_time_reversal(const Study& study) {
   DataTable data;
   for (const long double alpha : {0.3L, 0.7L}) {
     for (const long double h : {0.1L, -0.1L}) {
@@ -82,7 +84,7 @@ void write_data(const Study& study) {
 }  // namespace
 
 Section time_reversal(const Study& study) {
-  write_data(study);
+  write_time_reversal(study);
   Table table{.header = {"alpha", "h", "e(alpha, t) + e(1 - alpha, -t)",
                          "e(alpha, t) - e(1 - alpha, -t)", "difference of the spreads"}};
   std::vector<Asymmetry> found;

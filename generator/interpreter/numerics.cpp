@@ -259,26 +259,31 @@ class MatrixOf final : public AnyMatrix<Real> {
   Matrix matrix_;
 };
 
-// make(std::integral_constant<int, N>) for the least power of two N that is not below the size.
-template <int Most, int N = 1, class Make>
+// make(std::integral_constant<int, N>) for the first of these sizes that is not below the one asked
+// for.
+template <int N, int... More, class Make>
 auto at_least(int size, const Make& make) {
-  if constexpr (N < Most) {
-    if (size > N) return at_least<Most, 2 * N>(size, make);
-  }
-  if (size > N) {
+  if (size <= N) return make(std::integral_constant<int, N>());
+  if constexpr (sizeof...(More) > 0) {
+    return at_least<More...>(size, make);
+  } else {
     throw UsageError(
         fmt::format("the interpreter has no block of size {}, {} at most\n"
                     "help: leave out --interpret, or make the system smaller",
-                    size, Most));
+                    size, N));
   }
-  return make(std::integral_constant<int, N>());
+}
+// What takes time for each number that it has room for, in the order of those that sum up.
+template <class Make>
+auto at_least_up_to_256(int size, const Make& make) {
+  return at_least<1, 2, 4, 8, 16, 32, 64, 128, 256>(size, make);
 }
 
 }  // namespace
 
 template <class Real>
 std::unique_ptr<AnyHistory<Real>> Blocks<Real>::history(int size) {
-  return at_least<4096>(size, [](auto n) -> std::unique_ptr<AnyHistory<Real>> {
+  return at_least<4, 32, 64, 512, 4096>(size, [](auto n) -> std::unique_ptr<AnyHistory<Real>> {
     return std::make_unique<HistoryOf<Real, decltype(n)::value>>();
   });
 }
@@ -289,7 +294,7 @@ std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::newton_rule(int power, int un
   using Made = std::unique_ptr<AnyNewtonRule<Real>>;
   if (unknowns == 0 && power == 1) return std::make_unique<NewtonRuleOf<Real, 1, 0>>(waits);
   if (unknowns == 0) return std::make_unique<NewtonRuleOf<Real, 2, 0>>(waits);
-  return at_least<4096>(unknowns, [&](auto n) -> Made {
+  return at_least<16, 256, 4096>(unknowns, [&](auto n) -> Made {
     constexpr int most = decltype(n)::value;
     if (power == 1) return std::make_unique<NewtonRuleOf<Real, 1, most>>(waits);
     return std::make_unique<NewtonRuleOf<Real, 2, most>>(waits);
@@ -298,7 +303,7 @@ std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::newton_rule(int power, int un
 
 template <class Real>
 std::unique_ptr<AnyNewtonRule<Real>> Blocks<Real>::newton_rule_with_matrix(int unknowns) {
-  return at_least<32>(unknowns, [](auto n) -> std::unique_ptr<AnyNewtonRule<Real>> {
+  return at_least<8, 32>(unknowns, [](auto n) -> std::unique_ptr<AnyNewtonRule<Real>> {
     return std::make_unique<NewtonRuleOf<Real, 2, decltype(n)::value, true>>(false);
   });
 }
@@ -325,9 +330,10 @@ std::unique_ptr<AnyFixedPointRule<Real>> Blocks<Real>::fixed_point_rule(std::str
 template <class Real>
 std::unique_ptr<AnyRefinement<Real>> Blocks<Real>::refinement(int unknowns, int components) {
   const int size = std::max(unknowns, (components + 1) / 2);
-  return at_least<1024>(size, [](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
-    return std::make_unique<RefinementOf<Real, decltype(n)::value>>();
-  });
+  return at_least<1, 2, 4, 8, 16, 32, 64, 128, 256, 1024>(
+      size, [](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
+        return std::make_unique<RefinementOf<Real, decltype(n)::value>>();
+      });
 }
 
 template <class Real>
@@ -335,7 +341,7 @@ std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size, bool symmetric) 
   std::vector<int> place(static_cast<std::size_t>(size));
   std::iota(place.begin(), place.end(), 0);
   if (!symmetric) return matrix(std::move(place));
-  return at_least<256>(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
+  return at_least_up_to_256(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
     constexpr int most = decltype(n)::value;
     using Matrix = typename NumericsOf<Real>::template Symmetric<most>;
     return std::make_unique<MatrixOf<Real, most, Matrix>>(std::move(place));
@@ -345,7 +351,7 @@ std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size, bool symmetric) 
 template <class Real>
 std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(std::vector<int> place, bool symmetric) {
   const auto size = static_cast<int>(place.size());
-  return at_least<256>(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
+  return at_least_up_to_256(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
     constexpr int most = decltype(n)::value;
     if (symmetric) {
       using Matrix = typename NumericsOf<Real>::template SymmetricBand<most>;
