@@ -42,7 +42,7 @@ std::string path_in(const std::string& directory, const OutputFile& file) {
 
 // Is it a file of which the emitted code can be read back?
 bool has_code(const std::string& path) {
-  constexpr std::string_view kEndings[] = {".hpp", ".h", ".plugin.cpp"};
+  constexpr std::string_view kEndings[] = {".hpp", ".h", ".cl", ".plugin.cpp"};
   return path.find("hamgen_support") == std::string::npos &&
          std::ranges::any_of(kEndings, [&](std::string_view end) { return path.ends_with(end); });
 }
@@ -69,7 +69,8 @@ std::string said_of(const std::string& path, const std::string& text, const Sour
 
 // Is it the name of a file of code, rather than of a directory?
 bool is_code_file(const std::string& output) {
-  constexpr std::string_view kEndings[] = {".hpp", ".h", ".hh", ".hxx", ".cpp", ".cc", ".cxx"};
+  constexpr std::string_view kEndings[] = {".hpp", ".h",  ".hh",  ".hxx",
+                                           ".cpp", ".cc", ".cxx", ".cl"};
   return !std::filesystem::is_directory(output) &&
          std::ranges::any_of(kEndings, [&](std::string_view end) { return output.ends_with(end); });
 }
@@ -80,18 +81,23 @@ OutputFiles under_one_name(const OutputFiles& files, const std::string& name) {
   if (needed != 1)
     throw UsageError(fmt::format(
         "-o {}: there are {} files\nhelp: say where they go with -o DIRECTORY", name, needed));
-  const bool c = files.front().path.ends_with(".h");
-  const bool unit = files.front().path.ends_with(".cpp");
-  const bool header = name.ends_with(".h") || name.ends_with(".hpp") || name.ends_with(".hh") ||
-                      name.ends_with(".hxx");
-  if (header == unit || (c && !name.ends_with(".h")))
+  const std::string& path = files.front().path;
+  const std::string ending = path.substr(path.rfind('.'));
+  const bool unit = ending == ".cpp";
+  const bool header = ending == ".hpp";
+  const std::string_view fitting[] = {".hpp", ".h", ".hh", ".hxx"};
+  const bool ends_as_header =
+      std::ranges::any_of(fitting, [&](std::string_view end) { return name.ends_with(end); });
+  const bool fits = unit     ? !ends_as_header && !name.ends_with(".cl")
+                    : header ? ends_as_header
+                             : name.ends_with(ending);
+  if (!fits)
     throw UsageError(fmt::format("-o {}: what is written is {}\nhelp: let the name end in {}", name,
-                                 unit ? "a translation unit in C++"
-                                 : c  ? "a header in C"
-                                      : "a header in C++",
-                                 unit ? ".cpp"
-                                 : c  ? ".h"
-                                      : ".hpp"));
+                                 unit              ? "a translation unit in C++"
+                                 : header          ? "a header in C++"
+                                 : ending == ".cl" ? "a header in OpenCL C"
+                                                   : "a header in C",
+                                 ending));
   return {{name, files.front().text}};
 }
 
@@ -150,12 +156,15 @@ int print_only_file(const OutputFiles& files) {
   return done;
 }
 
-// The names of the list, for the help: the first is the default.
+// The names of the list, as short as they are taken, for the help: the first is the default.
 std::string format_names() {
+  constexpr std::string_view header = "-header";
   std::string names;
-  for (const NamedFormat& format : all_formats())
-    names += (names.empty() ? "" : ", ") + std::string(format.name) +
-             (names.empty() ? " (default)" : "");
+  for (const NamedFormat& format : all_formats()) {
+    std::string_view name = format.name;
+    if (name.ends_with(header)) name.remove_suffix(header.size());
+    names += (names.empty() ? "" : ", ") + std::string(name) + (names.empty() ? " (default)" : "");
+  }
   return names;
 }
 

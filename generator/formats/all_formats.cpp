@@ -20,7 +20,15 @@ constexpr std::array kFormats = {
                 cpp_plugin_files},
     NamedFormat{"c-header",
                 "a header in C11, of steps that are explicit or of small Newton systems",
-                c_header_files, false},
+                [](const Program& program, const EmitOptions& options) {
+                  return c_header_files("c-header", program, options);
+                },
+                false},
+    NamedFormat{"opencl-header", "the functions of a c-header for kernels in OpenCL C",
+                [](const Program& program, const EmitOptions& options) {
+                  return c_header_files("opencl-header", program, options);
+                },
+                false},
     NamedFormat{"cmake-package", "the header as a CMake project with an INTERFACE target",
                 cmake_package},
 };

@@ -23,14 +23,16 @@ std::string with_underscores(std::string text) {
 
 }  // namespace
 
-CDialect::CDialect(const ScalarType& scalar_type, const EmittedSpaces& spaces)
+CDialect::CDialect(const CFamily& of, const ScalarType& scalar_type, const EmittedSpaces& spaces)
     : Dialect(scalar_type, 0),
+      family(of),
       system_(with_underscores(spaces.system)),
       method_(with_underscores(spaces.of_method())) {}
 
 std::string CDialect::function(const std::string& name) const {
   const Function* row = find_function(name);
-  return (row != nullptr ? std::string(row->cpp) : name) + function_suffix(scalar);
+  const std::string called = row != nullptr ? std::string(row->cpp) : name;
+  return family.has_suffixes ? called + function_suffix(scalar) : called;
 }
 
 std::string CDialect::block(const std::string& name) const {
@@ -51,7 +53,9 @@ std::string CDialect::argument(const Argument& argument, const std::string& name
   const std::string constant = argument.changes ? "" : "const ";
   if (!argument.count.empty()) return argument.count + " " + name;
   if (argument.sizes.empty() && argument.record.empty()) return real() + " " + name;
-  if (argument.decays) return fmt::format("{}{}* {}", constant, real(), name);
+  const bool is_row = argument.sizes.size() == 1 && argument.record.empty();
+  if (argument.decays || (is_row && !family.has_array_arguments))
+    return fmt::format("{}{}* {}", constant, real(), name);
   if (argument.sizes.empty()) {
     return fmt::format("{}{}* {}", constant, type(argument.record), name);
   }

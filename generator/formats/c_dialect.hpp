@@ -1,5 +1,6 @@
 #pragma once
 
+#include "generator/base/c_family.hpp"
 #include "generator/formats/dialect.hpp"
 #include "generator/formats/emit_options.hpp"
 
@@ -7,12 +8,13 @@ namespace hamgen {
 
 // C11.  It has no namespaces: names begin with those of the system and the method,
 // pendulum_energy, pendulum_stormer_verlet_step; what is fixed begins with hamgen_ and ends in f or
-// l for float and long double numbers.
+// l for float and long double numbers.  Of another language of its family it is this text, but for
+// the names of functions.
 class CDialect : public Dialect {
  public:
-  CDialect(const ScalarType& scalar_type, const EmittedSpaces& spaces);
+  CDialect(const CFamily& family, const ScalarType& scalar_type, const EmittedSpaces& spaces);
 
-  [[nodiscard]] std::string language() const override { return "C11"; }
+  [[nodiscard]] std::string language() const override { return std::string(family.language); }
   [[nodiscard]] std::string real() const override { return std::string(scalar.cpp); }
   [[nodiscard]] std::string number(const std::string& integer) const override {
     return "(" + real() + ")(" + integer + ")";
@@ -41,6 +43,8 @@ class CDialect : public Dialect {
   [[nodiscard]] std::string named(const std::string& name) const;
   [[nodiscard]] const std::string& system() const { return system_; }
   [[nodiscard]] const std::string& method() const { return method_; }
+
+  const CFamily& family;
 
  private:
   std::string system_, method_;

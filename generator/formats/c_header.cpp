@@ -30,22 +30,29 @@ std::string missing(const Instruction& instruction) {
   return fixed_point ? "fixed points" : "";
 }
 
-void require_c(const EmitContext& context) {
-  const auto refuse = [](const std::string& what) {
+void require_c(const CFamily& family, const EmitContext& context) {
+  const std::string_view format = family.format;
+  const auto refuse = [&](const std::string& what) {
     throw UsageError(fmt::format(
-        "--format c-header: {}\nhelp: what is written in C are steps that are explicit, or solved "
+        "--format {}: {}\nhelp: what is written in C are steps that are explicit, or solved "
         "by Newton's iteration of a size up to 3, in float, double or long double; C can call any "
         "other one as a plugin: --format cpp-plugin",
-        what));
+        format, what));
   };
-  if (context.options.lanes > 0)
-    throw UsageError("--format c-header: there are no lanes in C\nhelp: --format cpp-header");
+  if (context.options.lanes > 0) {
+    throw UsageError(
+        fmt::format("--format {}: there are no lanes in C\nhelp: --format cpp-header", format));
+  }
   if (context.quad()) refuse("C has no quad numbers");
+  const bool has_scalar =
+      family.scalars.empty() ||
+      std::ranges::find(family.scalars, context.scalar.cpp) != family.scalars.end();
+  if (!has_scalar) refuse(fmt::format("{} has no {}", family.language, context.scalar.cpp));
   if (context.arrays()) refuse("there are no loops over degrees of freedom in C");
   if (context.options.tangent) refuse("there is no tangent map in C");
   if (context.options.shared_support) {
-    throw UsageError(
-        "--format c-header: there is no shared support in C\nhelp: leave out --support");
+    throw UsageError(fmt::format(
+        "--format {}: there is no shared support in C\nhelp: leave out --support", format));
   }
   if (const Field* own = parameter_of_method(context.contents))
     refuse(fmt::format("'{}' is a parameter of the method", own->name));
@@ -133,15 +140,18 @@ void write_blocks(CodeWriter& out, const CDialect& dialect, std::string text) {
 
 }  // namespace
 
-OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
+OutputFiles c_header_files(std::string_view format, const Program& program,
+                           const EmitOptions& options) {
+  const CFamily& family = *std::ranges::find(c_families(), format, &CFamily::format);
   if (!program.events.empty()) {
-    throw UsageError(
-        "--events with --format c-header: C has no functions to be called for an event\n"
-        "help: a cpp-header has them; invariant NAME = EXPR in the model is a value in C, too");
+    throw UsageError(fmt::format(
+        "--events with --format {}: C has no functions to be called for an event\n"
+        "help: a cpp-header has them; invariant NAME = EXPR in the model is a value in C, too",
+        format));
   }
-  const CDialect dialect(find_scalar(options.scalar), options.spaces);
+  const CDialect dialect(family, find_scalar(options.scalar), options.spaces);
   EmitContext context(program, options, dialect);
-  require_c(context);
+  require_c(family, context);
   CodeWriter system;
   write_pieces(system, context, dialect, context.contents.system);
   CodeWriter method;
@@ -153,8 +163,7 @@ OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
   CodeWriter out;
   write_preamble(out, context);
   out.line("#pragma once");
-  out.line("#include <math.h>");
-  out.line("#include <stdbool.h>");
+  for (const std::string_view line : family.opening) out.line(std::string(line));
   out.line();
   out.lines(ieee_begin(context.scalar));
   out.line();
@@ -163,7 +172,7 @@ OutputFiles c_header_files(const Program& program, const EmitOptions& options) {
   write_blocks(out, dialect, method.text());
   write_section(out, "HAMGEN_C_METHOD_" + dialect.method(), method.text());
   out.lines(cpp_numerics("shells/ieee_end"));
-  return {{options.file_name + ".h", out.text()}};
+  return {{options.file_name + std::string(family.extension), in_words_of(family, out.text())}};
 }
 
 }  // namespace hamgen

@@ -26,11 +26,43 @@ std::string guard_of_blocks(const Precision& precision) {
   return "HAMGEN_C_" + space + "_";
 }
 
+// The tokens of a file in a language of this family, as they would be in C11.
+std::vector<CppToken> in_c11(std::span<const CppToken> tokens, const CFamily& family,
+                             const Precision& precision) {
+  std::vector<CppToken> result;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    const CppToken& token = tokens[i];
+    const auto word =
+        std::ranges::find_if(family.words, [&](const auto& pair) { return token.is(pair.second); });
+    if (word != family.words.end()) {
+      for (CppToken& each : tokens_of(word->first)) {
+        if (each.kind == CppToken::Kind::end) break;
+        result.push_back({each.kind, std::move(each.text), token.line});
+      }
+      continue;
+    }
+    result.push_back(token);
+    const bool called = i + 1 < tokens.size() && tokens[i + 1].is("(");
+    if (family.has_suffixes || !called) continue;
+    const std::string_view suffix = suffix_of(precision);
+    if (is_library_function(token.text)) {
+      result.back().text += suffix;
+    } else if (token.text.ends_with(suffix) &&
+               is_library_function(
+                   std::string_view(token.text).substr(0, token.text.size() - suffix.size()))) {
+      throw TextDifference(token.line,
+                           fmt::format("{}, which {} has not", token.text, family.language));
+    }
+  }
+  return result;
+}
+
 class CFileReader {
  public:
-  CFileReader(std::span<const CppToken> tokens, const Precision& precision, const Program& program,
-              ReadBack& found)
-      : tokens_(tokens),
+  CFileReader(std::span<const CppToken> tokens, const CFamily& family, const Precision& precision,
+              const Program& program, ReadBack& found)
+      : family_(family),
+        tokens_(tokens),
         cursor_(tokens),
         precision_(precision),
         code_(program),
@@ -39,8 +71,9 @@ class CFileReader {
         contents_(contents_of(program, {.own_space = names_.system != names_.method})) {}
 
   void run() {
-    for (const char* line : {"#pragma once", "#include <math.h>", "#include <stdbool.h>"})
-      expect_directive(cursor_, line);
+    expect_directive(cursor_, "#pragma once");
+    for (const std::string_view line : family_.opening)
+      expect_directive(cursor_, std::string(line));
     const bool inside =
         names_.method == names_.system || names_.method.starts_with(names_.system + "_");
     if (!inside)
@@ -212,6 +245,7 @@ class CFileReader {
   [[nodiscard]] std::string of_system() const { return "HAMGEN_C_SYSTEM_" + names_.system; }
   [[nodiscard]] std::string of_method() const { return "HAMGEN_C_METHOD_" + names_.method; }
 
+  const CFamily& family_;
   std::span<const CppToken> tokens_;
   TokenCursor cursor_;
   const Precision& precision_;
@@ -224,10 +258,17 @@ class CFileReader {
 
 }  // namespace
 
+const CFamily* family_of(std::span<const CppToken> tokens) {
+  for (const CFamily& family : c_families()) {
+    if (tokens.size() > 1 && tokens[1].text == family.opening.front()) return &family;
+  }
+  return nullptr;
+}
+
 void read_c_file(std::span<const CppToken> tokens, const Precision& precision,
                  const Program& program, ReadBack& found) {
-  if (precision.is_quad()) throw TextDifference(1, "C has no quad numbers");
-  CFileReader(tokens, precision, program, found).run();
+  const CFamily& family = *family_of(tokens);
+  CFileReader(in_c11(tokens, family, precision), family, precision, program, found).run();
 }
 
 }  // namespace hamgen

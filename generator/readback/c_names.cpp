@@ -14,10 +14,6 @@ constexpr std::string_view kOfSystem[] = {"Parameters", "State",      "energy",
                                           "gradient",   "invariants", "default_parameters"};
 constexpr std::string_view kFixed = "hamgen_";
 
-std::string_view suffix_of(const Precision& precision) {
-  return precision.bits == 24 ? "f" : precision.bits == 64 ? "l" : "";
-}
-
 template <std::size_t count>
 bool is_one_of(const std::string_view (&list)[count], std::string_view word) {
   return std::ranges::find(list, word) != std::end(list);
@@ -100,10 +96,7 @@ class WordReader {
       return kOfHeader + std::string(of_method);
     if (is(0, "(") && text.ends_with(suffix_)) {
       const std::string name = text.substr(0, text.size() - suffix_.size());
-      const bool in_library =
-          name == "pow" ||
-          std::ranges::find(all_functions(), name, &Function::cpp) != all_functions().end();
-      if (in_library) return "std::" + name;
+      if (is_library_function(name)) return "std::" + name;
     }
     return text;
   }
@@ -116,6 +109,15 @@ class WordReader {
 };
 
 }  // namespace
+
+std::string_view suffix_of(const Precision& precision) {
+  return precision.bits == 24 ? "f" : precision.bits == 64 ? "l" : "";
+}
+
+bool is_library_function(std::string_view name) {
+  return name == "pow" || name == "fabs" ||
+         std::ranges::find(all_functions(), name, &Function::cpp) != all_functions().end();
+}
 
 std::string CNames::named(std::string_view name) const {
   return (is_one_of(kOfSystem, name) ? system : method) + "_" + std::string(name);

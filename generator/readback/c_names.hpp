@@ -25,6 +25,11 @@ struct CNames {
   [[nodiscard]] std::string text(std::string_view of) const;
 };
 
+// "f" of float, "l" of long double.
+[[nodiscard]] std::string_view suffix_of(const Precision& precision);
+// Is it one of <math.h>, without such a suffix, that is called for a function of the language?
+[[nodiscard]] bool is_library_function(std::string_view name);
+
 // What stands before a name of the header in `cpp_words`: no word of C begins with it.
 inline constexpr char kOfHeader = '@';
 

@@ -21,8 +21,7 @@ constexpr std::string_view kPluginGuard = "#ifndef HAMGEN_PLUGIN_H";
 
 TextKind kind_of(std::span<const CppToken> tokens) {
   if (tokens[0].text == kPluginGuard) return TextKind::plugin;
-  const bool in_c = tokens.size() > 1 && tokens[1].text == "#include <math.h>";
-  return in_c ? TextKind::c_header : TextKind::header;
+  return family_of(tokens) != nullptr ? TextKind::c_header : TextKind::header;
 }
 
 // What the guard of a section says of its name.

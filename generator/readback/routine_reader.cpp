@@ -81,6 +81,8 @@ void RoutineReader::compare_argument(const CppArgument& written, const Argument&
   if (!argument.count.empty()) type = argument.count;
   Pass pass = argument.sizes.empty() ? Pass::reference : Pass::array;
   if (argument.decays) pass = Pass::pointer;
+  // In C both are the same.
+  if (c_ && argument.sizes.size() == 1 && written.pass == Pass::pointer) pass = Pass::pointer;
   if (number && !argument.decays && (!lanes_ || !argument.count.empty())) pass = Pass::value;
   bool same = written.type == type && written.pass == pass;
   if (!c_) same = same && written.alone == argument.alone;

@@ -85,6 +85,13 @@ TEST(ExtendingPage, AFunctionIsARow) {
   EXPECT_TRUE(contains(table, block_of(".name = \"expm1\"")));
 }
 
+TEST(ExtendingPage, ADialectOfCIsARowAndALine) {
+  EXPECT_TRUE(contains(read(tree + "/generator/base/c_family.cpp"),
+                       block_of("CFamily{.format = \"opencl-header\"")));
+  EXPECT_TRUE(contains(read(tree + "/generator/formats/all_formats.cpp"),
+                       block_of("NamedFormat{\"opencl-header\"")));
+}
+
 // Its block in a folder of headers, from which the lists are made as the build makes them.
 TEST(ExtendingPage, ARuleOfFixedPointsIsABlockAndARow) {
   Edited("generator/solvers/all_solvers.cpp")

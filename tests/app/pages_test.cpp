@@ -67,6 +67,12 @@ const std::map<std::string, std::string> looked_at_elsewhere = {
     {"emitted-code.md: #include <stdio.h>", "emitted/documentation_test.cpp"},
     {"extending.md: // yoshida-4 three times, of sizes c, 1 - 2c, c with 2 c^5 + (1 - 2c)^5 = 0.",
      "app/extending_page_test.cpp"},
+    {"emitted-code.md: #include \"pendulum.cl\"", "emitted/documentation_test.cpp"},
+    {"extending.md:     CFamily{.format = \"opencl-header\",", "app/extending_page_test.cpp"},
+    {"extending.md:     NamedFormat{\"opencl-header\", \"the functions of a c-header for kernels "
+     "in "
+     "OpenCL C\",",
+     "app/extending_page_test.cpp"},
     {"extending.md: OutputFiles meson_package(const Program& program, const EmitOptions& options) "
      "{",
      "app/extending_page_test.cpp"},

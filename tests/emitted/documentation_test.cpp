@@ -75,6 +75,22 @@ TEST(Documentation, TheProgramInCCompiles) {
             "");
 }
 
+TEST(Documentation, TheKernelInOpenClCompiles) {
+  const std::string text = read(documented_root + "/docs/emitted-code.md");
+  const std::string include = "#include \"pendulum.cl\"\n";
+  const auto from = text.find(include);
+  ASSERT_NE(from, std::string::npos);
+  const SourceText model = read_source(documented_root + "/hamiltonians/pendulum.ham");
+  const std::string header = generate(model, {.format = "opencl-header"}).at(0).text;
+  const auto kernel = from + include.size();
+  EXPECT_EQ(
+      messages("clang",
+               without_pragma(header) + text.substr(kernel, text.find("```", kernel) - kernel),
+               {"-x", "cl", "-cl-std=CL2.0", "-Xclang", "-finclude-default-header", "-Wall",
+                "-Wno-unused-function", "-Wno-ignored-pragmas"}),
+      "");
+}
+
 // Every name in the table of parts is one of the header's.
 TEST(Documentation, ThePartsOfAHeaderAreThere) {
   const std::string header = generate(read_source(documented_root + "/hamiltonians/fput.ham"),

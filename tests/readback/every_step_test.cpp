@@ -125,6 +125,8 @@ TEST(ReadBackOf, EveryModelInCIsTheProgram) {
     for (const Scheme& scheme : all_schemes())
       requests.push_back({.scheme = scheme.name, .scalar = scalar, .format = "c-header"});
   }
+  for (const char* scalar : {"", "float"})
+    requests.push_back({.scalar = scalar, .format = "opencl-header"});
   const Counts counts = read_all(requests, 23);
   EXPECT_EQ(counts.read + counts.refused, counts.wished);
   EXPECT_GT(counts.read, counts.wished / 2);

@@ -48,7 +48,8 @@ struct Emitted {
 
 inline Emitted emitted(const std::string& model, const Request& request) {
   const SourceText source = source_of(model);
-  const bool alone = request.format != "c-header" && !request.events && request.batch == 0;
+  const bool in_c = request.format == "c-header" || request.format == "opencl-header";
+  const bool alone = !in_c && !request.events && request.batch == 0;
   std::string text;
   if (alone) {
     const PluginSource plugin = generate_plugin(source, request, HeaderText::without_proof);

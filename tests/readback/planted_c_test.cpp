@@ -91,6 +91,26 @@ TEST(PlantedFaultInC, OfAddressesAndNamesIsFound) {
   for (const Fault& fault : faults) expect_found(fault);
 }
 
+// What OpenCL C has in other words than C.
+TEST(PlantedFaultInC, OfTheWordsOfOpenClIsFound) {
+  const Request opencl = {.format = "opencl-header"};
+  const Request single = {.scalar = "float", .format = "opencl-header"};
+  const std::vector<Fault> faults = {
+      {"sin as cos", "pendulum", opencl, "H_q = par->eps * sin(q_bar)",
+       "H_q = par->eps * cos(q_bar)"},
+      {"a constant that varies", "pendulum", opencl, "__constant double hamgen_epsilon",
+       "static double hamgen_epsilon"},
+      {"another constant", "pendulum", opencl, "hamgen_epsilon = 0x1p-52",
+       "hamgen_epsilon = 0x1p-42"},
+      {"a function of C", "pendulum", single, "par->eps * sin(q)", "par->eps * sinf(q)"},
+      {"a shorter number", "pendulum", opencl, "  long iterations;", "  int iterations;"},
+      {"products that are contracted", "pendulum", opencl, "#pragma OPENCL FP_CONTRACT OFF",
+       "#pragma OPENCL FP_CONTRACT ON"},
+      {"an include", "pendulum", opencl, "#pragma OPENCL FP_CONTRACT OFF", "#include <math.h>"},
+  };
+  for (const Fault& fault : faults) expect_found(fault);
+}
+
 TEST(ReadBackOfC, ATextThatComputesTheSameIsTheSame) {
   const Emitted header = emitted("pendulum", in_c());
   const std::vector<std::pair<std::string, std::string>> freedoms = {

@@ -1,0 +1,64 @@
+#include "generator/base/c_family.hpp"
+
+#include <array>
+#include <cctype>
+
+namespace hamgen {
+
+namespace {
+
+const std::array kFamilies = {
+    CFamily{.format = "c-header",
+            .language = "C11",
+            .opening = {"#include <math.h>", "#include <stdbool.h>"}},
+    // Functions and types of C's headers are OpenCL C's own, of one name for all numbers. Constants
+    // of a file have a memory of their own, arrays among the arguments are in that of the item,
+    // addresses in any, and long has 64 bits everywhere.
+    CFamily{.format = "opencl-header",
+            .language = "OpenCL C 3.0",
+            .extension = ".cl",
+            .opening = {"#ifdef __FAST_RELAXED_MATH__",
+                        "#error \"what rounding loses is kept here: build without "
+                        "-cl-fast-relaxed-math\"",
+                        "#endif", "#pragma OPENCL FP_CONTRACT OFF"},
+            .has_suffixes = false,
+            .has_array_arguments = false,
+            .scalars = {"float", "double"},
+            .words = {{"static const", "__constant"}, {"long long", "long"}}},
+};
+
+bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+// Is text[at, at + size) a word, or words, and no part of longer ones?
+bool stands_alone(const std::string& text, std::size_t at, std::size_t size) {
+  const bool goes_on = at + size < text.size() && is_of_word(text[at + size]);
+  return !goes_on && (at == 0 || !is_of_word(text[at - 1]));
+}
+
+std::string replaced(std::string line, std::string_view from, std::string_view to) {
+  for (std::size_t at = line.find(from); at != line.npos; at = line.find(from, at)) {
+    if (stands_alone(line, at, from.size())) line.replace(at, from.size(), to);
+    ++at;
+  }
+  return line;
+}
+
+}  // namespace
+
+std::span<const CFamily> c_families() { return kFamilies; }
+
+std::string in_words_of(const CFamily& family, const std::string& text) {
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    const std::string line = text.substr(begin, end - begin);
+    const std::size_t comment = std::min(line.find("//"), line.size());
+    std::string code = line.substr(0, comment);
+    for (const auto& [from, to] : family.words) code = replaced(std::move(code), from, to);
+    result += code + line.substr(comment);
+    begin = end;
+  }
+  return result;
+}
+
+}  // namespace hamgen
