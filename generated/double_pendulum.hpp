@@ -700,9 +700,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0xee450424
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0xbdc7b087
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_ee450424 {
+inline namespace emitted_bdc7b087 {
 
 namespace numerics = ::hamgen_c9309962::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -717,8 +717,8 @@ struct Start {
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
 [[nodiscard, gnu::always_inline]] inline StepReport solve(const Parameters&, Real h, const State& z,
-                                                          const State& carry, Start& start, State&
-                                                          dz, State& rest) {
+                                                          const State& carry, Start& start,
+                                                          State& dz, State& rest) {
   StepReport report;
   const Real q1 = z.q1;
   const Real q2 = z.q2;
@@ -893,9 +893,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_ee450424
+}  // namespace emitted_bdc7b087
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0xee450424
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0xbdc7b087
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

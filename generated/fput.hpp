@@ -1325,9 +1325,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x529eaa5f
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x76305f46
 namespace fput::implicit_midpoint {
-inline namespace emitted_529eaa5f {
+inline namespace emitted_76305f46 {
 
 namespace numerics = ::hamgen_c9309962::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -1374,8 +1374,8 @@ struct Start {
 
 // grad H at the stage, whose momenta follow from its coordinates, and what the equations
 // lack there.
-inline void evaluate(const Parameters& par, const Coefficients& k, const State& z, const State&
-                     carry, Start& __restrict start) {
+inline void evaluate(const Parameters& par, const Coefficients& k, const State& z,
+                     const State& carry, Start& __restrict start) {
   potential_gradient(par, start.value, start.slope);
   for (int i = 0; i < n; ++i) {
     const Real p_push = k.half_h * start.slope[i];
@@ -1403,8 +1403,8 @@ inline void evaluate_in_parts(const Parameters& par, const Coefficients& k, cons
 }
 
 // The derivative of the equations' residual, q first, at a stage.
-inline void differentiate(const Parameters& par, const Coefficients& k, const Real* at, Matrix&
-                          __restrict matrix) {
+inline void differentiate(const Parameters& par, const Coefficients& k, const Real* at,
+                          Matrix& __restrict matrix) {
   matrix.clear();
   for (int i = 0; i < n; ++i) matrix.put(i, i, 1.0);
   for (int i = 1; i <= 31; ++i) {
@@ -1446,8 +1446,8 @@ inline void potential_curvature(const Parameters& par, const Real* q, const Real
 
 // False if the fixed point contracts so slowly that Newton's matrix is worth its work.
 inline bool contract(const Parameters& par, const Coefficients& k, Real h, const State& z,
-                     const State& carry, Start& __restrict start, State& __restrict dz, State&
-                     __restrict rest, StepReport& __restrict report) {
+                     const State& carry, Start& __restrict start, State& __restrict dz,
+                     State& __restrict rest, StepReport& __restrict report) {
   // Fixed-point iteration.
   start.rule.begin(3);
   for (int iteration = 1;; ++iteration) {
@@ -1497,8 +1497,8 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
 }
 
 inline bool newton(const Parameters& par, const Coefficients& k, Real h, const State& z,
-                   const State& carry, Start& __restrict start, State& __restrict dz, State&
-                   __restrict rest, StepReport& __restrict report) {
+                   const State& carry, Start& __restrict start, State& __restrict dz,
+                   State& __restrict rest, StepReport& __restrict report) {
   // Newton's iteration on what the equations lack.
   start.newton_rule.begin(start.known);
   for (int iteration = 1;; ++iteration) {
@@ -1666,9 +1666,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_529eaa5f
+}  // namespace emitted_76305f46
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x529eaa5f
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x76305f46
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

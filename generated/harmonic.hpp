@@ -145,9 +145,9 @@ inline Real difference_error(Real x, Real y) {
 }  // namespace hamgen_c9309962::float64
 
 #ifndef HAMGEN_METHOD_harmonic_implicit_midpoint
-#define HAMGEN_METHOD_harmonic_implicit_midpoint 0x85323ace
+#define HAMGEN_METHOD_harmonic_implicit_midpoint 0x6b9305ef
 namespace harmonic::implicit_midpoint {
-inline namespace emitted_85323ace {
+inline namespace emitted_6b9305ef {
 
 namespace numerics = ::hamgen_c9309962::float64;
 using numerics::StepReport, numerics::two_sum_with_rest, numerics::product_error,
@@ -181,8 +181,8 @@ inline Coefficients prepare(const Parameters& par, Real h) {
 }
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
-[[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h, const State&
-                                      z, const State& carry, State& dz, State& rest) {
+[[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h,
+                                      const State& z, const State& carry, State& dz, State& rest) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;
@@ -284,9 +284,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_85323ace
+}  // namespace emitted_6b9305ef
 }  // namespace harmonic::implicit_midpoint
-#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0x85323ace
+#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0x6b9305ef
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -709,9 +709,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0x34a035f0
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0x27cf278d
 namespace kepler::implicit_midpoint {
-inline namespace emitted_34a035f0 {
+inline namespace emitted_27cf278d {
 
 namespace numerics = ::hamgen_c9309962::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -737,9 +737,9 @@ struct Start {
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
 [[nodiscard, gnu::always_inline]] inline StepReport solve(const Parameters&, const Coefficients& k,
-                                                          Real h, const State& z, const State&
-                                                          carry, Start& start, State& dz, State&
-                                                          rest) {
+                                                          Real h, const State& z,
+                                                          const State& carry, Start& start,
+                                                          State& dz, State& rest) {
   StepReport report;
   const Real q1 = z.q1;
   const Real q2 = z.q2;
@@ -921,9 +921,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_34a035f0
+}  // namespace emitted_27cf278d
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x34a035f0
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x27cf278d
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -428,9 +428,9 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 #endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xac5bb8e1
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x7bf6af52
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_ac5bb8e1 {
+inline namespace emitted_7bf6af52 {
 
 namespace numerics = ::hamgen_c9309962::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
@@ -472,10 +472,11 @@ inline void derivatives(const Parameters& par, Derivatives& at) {
 }
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
-[[nodiscard, gnu::always_inline]] inline StepReport solve(const Parameters& par, const Coefficients&
-                                                          k, Real h, const State& z, const State&
-                                                          carry, Start& start, Derivatives& at,
-                                                          State& dz, State& rest) {
+[[nodiscard, gnu::always_inline]] inline StepReport solve(const Parameters& par,
+                                                          const Coefficients& k, Real h,
+                                                          const State& z, const State& carry,
+                                                          Start& start, Derivatives& at, State& dz,
+                                                          State& rest) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;
@@ -622,9 +623,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_ac5bb8e1
+}  // namespace emitted_7bf6af52
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xac5bb8e1
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x7bf6af52
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

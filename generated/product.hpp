@@ -93,9 +93,9 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }  // namespace hamgen_c9309962::float64
 
 #ifndef HAMGEN_METHOD_product_symplectic_euler_b
-#define HAMGEN_METHOD_product_symplectic_euler_b 0xf7b80d8e
+#define HAMGEN_METHOD_product_symplectic_euler_b 0x37ce93a4
 namespace product::symplectic_euler_b {
-inline namespace emitted_f7b80d8e {
+inline namespace emitted_37ce93a4 {
 
 namespace numerics = ::hamgen_c9309962::float64;
 using numerics::StepReport, numerics::two_sum;
@@ -112,8 +112,8 @@ inline Coefficients prepare(const Parameters&, Real h) {
 }
 
 // dz = Z - z for one step from z + carry.
-[[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h, const State&
-                                      z, const State& carry, State& dz) {
+[[nodiscard]] inline StepReport solve(const Parameters&, const Coefficients& k, Real h,
+                                      const State& z, const State& carry, State& dz) {
   StepReport report;
   const Real q = z.q;
   const Real p = z.p;
@@ -201,9 +201,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_f7b80d8e
+}  // namespace emitted_37ce93a4
 }  // namespace product::symplectic_euler_b
-#elif HAMGEN_METHOD_product_symplectic_euler_b != 0xf7b80d8e
+#elif HAMGEN_METHOD_product_symplectic_euler_b != 0x37ce93a4
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -16,7 +16,8 @@ namespace hamgen {
 class CodeWriter {
  public:
   // A line of code; one that would pass column 100 is broken as clang-format would: at the
-  // outermost operator or comma that fits, going on under what the operand began with.
+  // outermost operator or comma that fits, going on under what the operand began with.  The head of
+  // a function that has an argument too long for that goes on in a line of its own.
   void line(const std::string& text = "") {
     std::string_view rest = text;
     const std::size_t blanks = std::min(text.find_first_not_of(' '), text.size());
@@ -26,6 +27,18 @@ class CodeWriter {
     std::vector<std::size_t> columns{
         first_operand(rest, depth)};  // where each bracket level goes on
     if (text.find("//") == std::string::npos && text.find('"') == std::string::npos) {
+      if (const std::size_t begin = arguments_of_head(rest, indent); begin != rest.npos) {
+        text_.append(indent, ' ');
+        text_.append(rest.substr(0, begin)) += '\n';
+        rest = rest.substr(begin);
+        indent = depth + 4;
+        columns = {indent};
+      }
+      if (const std::size_t begin = controlled(rest, indent); begin != rest.npos) {
+        text_.append(indent, ' ');
+        text_.append(rest.substr(0, begin - 1)) += '\n';
+        return line(std::string(blanks + 2, ' ').append(rest.substr(begin)));
+      }
       std::size_t equals = rest.find(" = ");
       while (indent + rest.size() > kColumns) {
         if (equals != std::string_view::npos && depth + 4 + rest.size() - equals - 3 <= kColumns) {
@@ -130,6 +143,34 @@ class CodeWriter {
     return equals == std::string_view::npos ? depth + 4 : depth + equals + 3;
   }
 
+  // Where the statement begins that "if (...)" or "for (...)" stands before, if both are too long
+  // for a line and the first is not.
+  static std::size_t controlled(std::string_view text, std::size_t indent) {
+    if (indent + text.size() <= kColumns ||
+        !(text.starts_with("if (") || text.starts_with("for (")))
+      return text.npos;
+    int open = 0;
+    for (std::size_t i = 0; i + 2 < text.size() && indent + i < kColumns; ++i) {
+      if (text[i] == '(') ++open;
+      if (text[i] != ')' || --open > 0) continue;
+      return text[i + 2] == '{' ? text.npos : i + 2;
+    }
+    return text.npos;
+  }
+  // Where the arguments of the head of a function begin, if one of them passes the last column
+  // there.
+  static std::size_t arguments_of_head(std::string_view text, std::size_t indent) {
+    const bool is_head = text.find("inline ") != text.npos && text.ends_with(") {");
+    if (!is_head || indent + text.size() <= kColumns) return text.npos;
+    const std::size_t begin = text.find('(') + 1;
+    for (std::size_t at = begin; at < text.size();) {
+      const std::size_t end = std::min(text.find(", ", at), text.size() - 1) + 1;
+      if (indent + begin + end - at > kColumns) return begin;
+      at = end + 1;
+    }
+    return text.npos;
+  }
+
   // The blank to break at: within the width, at the outermost bracket level that has one, after
   // a comma, plus or minus rather than after times or divided by, as late as possible; behind the
   // " = " that starts at `start`, if there is one.
@@ -142,8 +183,10 @@ class CodeWriter {
       if (before == '(' || before == '{' || before == '[') ++level;
       if ((before == ')' || before == '}' || before == ']') && level > 0) --level;
       if (text[i] != ' ' || (start != std::string::npos && i <= start + 2)) continue;
-      const bool weak = std::string_view("+-,?&|").find(before) != std::string_view::npos;
-      // Not the star of a pointer.
+      // Not what makes a type that of an address.
+      const bool of_two = i >= 2 && (text[i - 2] == ' ' || text[i - 2] == '&');
+      const bool weak = std::string_view("+-,?|").find(before) != std::string_view::npos ||
+                        (before == '&' && of_two);
       const bool strong = (before == '*' || before == '/') && i >= 2 && text[i - 2] == ' ';
       if (!weak && !strong) continue;
       const std::pair<std::size_t, int> rank{level, weak ? 0 : 1};

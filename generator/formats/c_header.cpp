@@ -96,12 +96,14 @@ std::string block_text(std::string_view name, const CDialect& dialect, int unkno
   };
   std::string result;
   std::string word;
+  bool in_comment = false;
   for (const char c : unbroken(c_numerics(name, dialect.scalar, dialect.function("fabs")))) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
       word += c;
       continue;
     }
-    result += renamed(word) + c;
+    result += (in_comment ? word : renamed(word)) + c;
+    in_comment = c != '\n' && (in_comment || result.ends_with("//"));
     word.clear();
   }
   return result;
