@@ -37,9 +37,13 @@ std::vector<std::string> uniquely_solved_models() {
 
 // h times the frequency of its spring is 3.5: an approximate matrix contracts by 0.3 an increment,
 // in quad the 60 of an iteration are not enough, and there is nothing to judge the step by.  Beside
-// what is huge, where it is up to 2.6, quad finds none in one of the steps.
-bool is_beyond_quad(const std::string& model, const Method& method) {
-  return (model == "next_to_rounding" || model == "beside_huge") && method.request.order > 0;
+// what is huge, where it is up to 2.6, quad finds none in one of the steps.  Where a bond is a
+// 100th of its way in a step the terms of a K of order 6 cancel each other, and what its gradient
+// is rounded by is no part of the bound (benchmarks/contract/README.md).
+bool is_not_judged(const std::string& model, const Method& method) {
+  const int order = method.request.order;
+  return ((model == "next_to_rounding" || model == "beside_huge") && order > 0) ||
+         (model == "in_flight" && order > 4);
 }
 
 // A fixed point need not contract, an explicit step may be far too long, and a step of a general
@@ -76,7 +80,7 @@ TEST(EveryMethod, KeepsItOnEveryScene) {
     for (std::size_t k = 0; k < methods.size(); ++k) {
       if ((i + k) % stride != 0) continue;
       const Method& method = methods[k];
-      if ((large && !is_worth_it(method)) || is_beyond_quad(models[i], method)) continue;
+      if ((large && !is_worth_it(method)) || is_not_judged(models[i], method)) continue;
       const std::vector<Case> cases = scenes_of(interpretable.model(), source, method, 3);
       std::vector<Defects> found;
       try {
