@@ -32,12 +32,15 @@ std::string missing(const Instruction& instruction) {
 
 void require_c(const CFamily& family, const EmitContext& context) {
   const std::string_view format = family.format;
+  const bool all_scalars = family.scalars.empty();
   const auto refuse = [&](const std::string& what) {
     throw UsageError(fmt::format(
-        "--format {}: {}\nhelp: what is written in C are steps that are explicit, or solved "
-        "by Newton's iteration of a size up to 3, in float, double or long double; C can call any "
-        "other one as a plugin: --format cpp-plugin",
-        format, what));
+        "--format {}: {}\nhelp: what is written in C are steps that are explicit, or solved by "
+        "Newton's iteration of a size up to 3, in {}{}",
+        format, what,
+        all_scalars ? "float, double or long double"
+                    : fmt::format("{}", fmt::join(family.scalars, " or ")),
+        all_scalars ? "; C can call any other one as a plugin: --format cpp-plugin" : ""));
   };
   if (context.options.lanes > 0) {
     throw UsageError(
@@ -45,8 +48,7 @@ void require_c(const CFamily& family, const EmitContext& context) {
   }
   if (context.quad()) refuse("C has no quad numbers");
   const bool has_scalar =
-      family.scalars.empty() ||
-      std::ranges::find(family.scalars, context.scalar.cpp) != family.scalars.end();
+      all_scalars || std::ranges::find(family.scalars, context.scalar.cpp) != family.scalars.end();
   if (!has_scalar) refuse(fmt::format("{} has no {}", family.language, context.scalar.cpp));
   if (context.arrays()) refuse("there are no loops over degrees of freedom in C");
   if (context.options.tangent) refuse("there is no tangent map in C");
