@@ -45,6 +45,14 @@ TEST(CodeWriter, PutsWhatAConditionControlsInALineOfItsOwn) {
             "    rule->contraction = (double)1 / 1024;\n");
 }
 
+// And no bracket.
+TEST(CodeWriter, LeavesABlockWhereItBegins) {
+  EXPECT_EQ(written("if (first_of_the_conditions_that_hold_of_it_and_of_all && "
+                    "the_second_of_the_conditions_of_all_othe) {"),
+            "if (first_of_the_conditions_that_hold_of_it_and_of_all &&\n"
+            "    the_second_of_the_conditions_of_all_othe) {\n");
+}
+
 TEST(CodeWriter, LeavesALineThatFits) {
   for (const char* line : {"if (open) close(all);", "inline void f(A* a) {", ""})
     EXPECT_EQ(written(line), std::string(line) + "\n");

@@ -130,9 +130,11 @@ TEST(OpenClHeader, HasItsOwnWordsInCodeOnly) {
   EXPECT_EQ(in_words_of(opencl,
                         "static const double hamgen_pi = 3;  // a static const long long\n"
                         "long long steps, longs, a_long;\n"
+                        "along long long_long;\n"
                         "static constant;"),
             "__constant double hamgen_pi = 3;  // a static const long long\n"
             "long steps, longs, a_long;\n"
+            "along long long_long;\n"
             "static constant;");
 }
 
