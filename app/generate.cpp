@@ -11,6 +11,7 @@
 #include "app/output/output_name.hpp"
 #include "app/output/patience.hpp"
 #include "app/output/terminal.hpp"
+#include "generator/base/c_family.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/formats/all_formats.hpp"
 #include "runtime/atomic_file.hpp"
@@ -42,9 +43,9 @@ std::string path_in(const std::string& directory, const OutputFile& file) {
 
 // Is it a file of which the emitted code can be read back?
 bool has_code(const std::string& path) {
-  constexpr std::string_view kEndings[] = {".hpp", ".h", ".cl", ".plugin.cpp"};
+  const bool in_cpp = path.ends_with(".hpp") || path.ends_with(".plugin.cpp");
   return path.find("hamgen_support") == std::string::npos &&
-         std::ranges::any_of(kEndings, [&](std::string_view end) { return path.ends_with(end); });
+         (in_cpp || c_family_of_file(path) != nullptr);
 }
 
 // What a file that is there computes, whatever else of it has changed.
@@ -69,10 +70,10 @@ std::string said_of(const std::string& path, const std::string& text, const Sour
 
 // Is it the name of a file of code, rather than of a directory?
 bool is_code_file(const std::string& output) {
-  constexpr std::string_view kEndings[] = {".hpp", ".h",  ".hh",  ".hxx",
-                                           ".cpp", ".cc", ".cxx", ".cl"};
+  constexpr std::string_view kEndings[] = {".hpp", ".hh", ".hxx", ".cpp", ".cc", ".cxx"};
+  const auto ends = [&](std::string_view end) { return output.ends_with(end); };
   return !std::filesystem::is_directory(output) &&
-         std::ranges::any_of(kEndings, [&](std::string_view end) { return output.ends_with(end); });
+         (c_family_of_file(output) != nullptr || std::ranges::any_of(kEndings, ends));
 }
 
 // The one file that is needed, under the name that was given, below no directory.
@@ -82,22 +83,20 @@ OutputFiles under_one_name(const OutputFiles& files, const std::string& name) {
     throw UsageError(fmt::format(
         "-o {}: there are {} files\nhelp: say where they go with -o DIRECTORY", name, needed));
   const std::string& path = files.front().path;
-  const std::string ending = path.substr(path.rfind('.'));
-  const bool unit = ending == ".cpp";
-  const bool header = ending == ".hpp";
-  const std::string_view fitting[] = {".hpp", ".h", ".hh", ".hxx"};
-  const bool ends_as_header =
-      std::ranges::any_of(fitting, [&](std::string_view end) { return name.ends_with(end); });
-  const bool fits = unit     ? !ends_as_header && !name.ends_with(".cl")
-                    : header ? ends_as_header
-                             : name.ends_with(ending);
+  const CFamily* const c = c_family_of_file(path);
+  const bool unit = path.ends_with(".cpp");
+  const bool header = name.ends_with(".hpp") || name.ends_with(".h") || name.ends_with(".hh") ||
+                      name.ends_with(".hxx");
+  const CFamily* const named_as = c_family_of_file(name);
+  const bool fits = c != nullptr ? named_as == c : unit ? !header && named_as == nullptr : header;
   if (!fits)
     throw UsageError(fmt::format("-o {}: what is written is {}\nhelp: let the name end in {}", name,
-                                 unit              ? "a translation unit in C++"
-                                 : header          ? "a header in C++"
-                                 : ending == ".cl" ? "a header in OpenCL C"
-                                                   : "a header in C",
-                                 ending));
+                                 c != nullptr ? fmt::format("a header in {}", c->language)
+                                 : unit       ? "a translation unit in C++"
+                                              : "a header in C++",
+                                 c != nullptr ? c->extension
+                                 : unit       ? ".cpp"
+                                              : ".hpp"));
   return {{name, files.front().text}};
 }
 

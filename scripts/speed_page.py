@@ -341,7 +341,7 @@ def faster_libraries():
                 own, other = best(methods, place, False), best(methods, place, True)
                 if own and other and other[0] < 0.98 * own[0]:
                     lost[model] = max(lost.get(model, 0), own[0] / other[0])
-    return listed([f"{model} (by up to {ratio:.1f} times)" for model, ratio in lost.items()]) if lost else ""
+    return listed([f"{model} (by up to {ratio:.2f} times)" for model, ratio in lost.items()]) if lost else ""
 
 
 def readme_table():

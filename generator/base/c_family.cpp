@@ -1,7 +1,10 @@
 #include "generator/base/c_family.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
+
+#include "generator/base/diagnostic.hpp"
 
 namespace hamgen {
 
@@ -46,6 +49,19 @@ std::string replaced(std::string line, std::string_view from, std::string_view t
 }  // namespace
 
 std::span<const CFamily> c_families() { return kFamilies; }
+
+const CFamily& c_family_of_format(std::string_view format) {
+  const auto found = std::ranges::find(c_families(), format, &CFamily::format);
+  if (found == c_families().end()) internal_error("no language of " + std::string(format));
+  return *found;
+}
+
+const CFamily* c_family_of_file(std::string_view name) {
+  for (const CFamily& family : c_families()) {
+    if (name.ends_with(family.extension)) return &family;
+  }
+  return nullptr;
+}
 
 std::string in_words_of(const CFamily& family, const std::string& text) {
   std::string result;

@@ -25,6 +25,10 @@ struct CFamily {
 
 // The first is C11; the row of another one is all that is said of it.
 [[nodiscard]] std::span<const CFamily> c_families();
+// That of this format, of which there is one.
+[[nodiscard]] const CFamily& c_family_of_format(std::string_view format);
+// That of files whose names end so; null of another one.
+[[nodiscard]] const CFamily* c_family_of_file(std::string_view name);
 // The text in C11 with this language's words, in comments none.
 [[nodiscard]] std::string in_words_of(const CFamily& family, const std::string& text);
 

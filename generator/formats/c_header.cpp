@@ -146,7 +146,7 @@ void write_blocks(CodeWriter& out, const CDialect& dialect, std::string text) {
 
 OutputFiles c_header_files(std::string_view format, const Program& program,
                            const EmitOptions& options) {
-  const CFamily& family = *std::ranges::find(c_families(), format, &CFamily::format);
+  const CFamily& family = c_family_of_format(format);
   if (!program.events.empty()) {
     throw UsageError(fmt::format(
         "--events with --format {}: C has no functions to be called for an event\n"

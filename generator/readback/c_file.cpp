@@ -268,6 +268,12 @@ const CFamily* family_of(std::span<const CppToken> tokens) {
 void read_c_file(std::span<const CppToken> tokens, const Precision& precision,
                  const Program& program, ReadBack& found) {
   const CFamily& family = *family_of(tokens);
+  const bool has_scalar =
+      family.scalars.empty()
+          ? !precision.is_quad()
+          : std::ranges::find(family.scalars, precision.type) != family.scalars.end();
+  if (!has_scalar)
+    throw TextDifference(1, fmt::format("{} has no {}", family.language, precision.type));
   CFileReader(in_c11(tokens, family, precision), family, precision, program, found).run();
 }
 

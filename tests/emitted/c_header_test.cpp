@@ -13,16 +13,6 @@
 namespace hamgen::emitted_test {
 namespace {
 
-SourceText shipped(const std::string& model) {
-  return read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + model + ".ham");
-}
-
-std::string run_c(const std::vector<std::string>& command) {
-  const runtime::ProcessResult result = runtime::run_process(
-      {.command = command, .time_limit = std::chrono::minutes(20), .output_limit = 1 << 20});
-  return result.succeeded() ? result.output : "failed:\n" + result.output;
-}
-
 struct Method {
   std::string model;
   Request request;
@@ -141,13 +131,13 @@ TEST(CHeader, TakesTheStepsOfTheHeaderInCppToTheLastBit) {
   const auto path = [&](const char* name) { return (directory.path() / name).string(); };
   std::ofstream(path("c.c")) << c_program();
   std::ofstream(path("cpp.cpp")) << cpp_program();
-  ASSERT_EQ(run_c({"gcc", "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion",
-                   "-Wsign-conversion", "-Wshadow", "-Wdouble-promotion", "-Werror", "-O1",
-                   path("c.c"), "-o", path("c"), "-lm"}),
+  ASSERT_EQ(output_of({"gcc", "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion",
+                       "-Wsign-conversion", "-Wshadow", "-Wdouble-promotion", "-Werror", "-O1",
+                       path("c.c"), "-o", path("c"), "-lm"}),
             "");
-  ASSERT_EQ(run_c({"g++", "-std=c++17", "-O1", path("cpp.cpp"), "-o", path("cpp")}), "");
-  const std::string expected = run_c({path("cpp")});
-  EXPECT_EQ(run_c({path("c")}), expected);
+  ASSERT_EQ(output_of({"g++", "-std=c++17", "-O1", path("cpp.cpp"), "-o", path("cpp")}), "");
+  const std::string expected = output_of({path("cpp")});
+  EXPECT_EQ(output_of({path("c")}), expected);
   EXPECT_EQ(static_cast<std::size_t>(count(expected, "\n")), methods().size());
   EXPECT_EQ(static_cast<std::size_t>(count(expected, " 1 ")), methods().size()) << expected;
 }

@@ -63,6 +63,16 @@ std::string run_program(const std::string& text, const std::vector<std::string>&
   return ran.output;
 }
 
+std::string output_of(const std::vector<std::string>& command) {
+  const runtime::ProcessResult result = runtime::run_process(
+      {.command = command, .time_limit = std::chrono::minutes(20), .output_limit = 1 << 20});
+  return result.succeeded() ? result.output : "failed:\n" + result.output;
+}
+
+SourceText shipped(const std::string& model) {
+  return read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + model + ".ham");
+}
+
 std::vector<std::filesystem::path> shipped_models() {
   std::vector<std::filesystem::path> models;
   for (const auto& entry : std::filesystem::directory_iterator(

@@ -27,7 +27,12 @@ namespace hamgen::emitted_test {
 [[nodiscard]] std::string run_program(const std::string& text,
                                       const std::vector<std::string>& flags = {});
 
+// What a command prints; behind "failed:" where it fails.
+[[nodiscard]] std::string output_of(const std::vector<std::string>& command);
+
 [[nodiscard]] std::vector<std::filesystem::path> shipped_models();
+// hamiltonians/MODEL.ham
+[[nodiscard]] SourceText shipped(const std::string& model);
 [[nodiscard]] std::string read(const std::filesystem::path& path);
 
 // A header without its first line `#pragma once`, so that several fit one translation unit.

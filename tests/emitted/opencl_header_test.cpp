@@ -14,10 +14,6 @@
 namespace hamgen::emitted_test {
 namespace {
 
-SourceText model_in_tree(const std::string& model) {
-  return read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + model + ".ham");
-}
-
 struct StepInOpenCl {
   std::string model;
   Request request;
@@ -42,7 +38,7 @@ std::string functions_in(const std::string& format, const std::string& space) {
     request.format = format;
     request.name_space = fmt::format("m{}", number);
     const bool single = request.scalar == "float";
-    text += without_pragma(emit(model_in_tree(method.model), request).at(0).text);
+    text += without_pragma(emit(shipped(method.model), request).at(0).text);
     text += fmt::format(R"(
 void {3}{0}(__global {1}* out);
 void {3}{0}(__global {1}* out) {{
@@ -109,19 +105,14 @@ TEST(OpenClHeader, TakesTheStepsOfTheHeaderInCToTheLastBit) {
   std::ofstream(path("cl.cl")) << functions_in("opencl-header", "cl");
   std::ofstream(path("library.c")) << library_of_opencl();
   std::ofstream(path("main.c")) << program_that_compares();
-  const auto run = [](const std::vector<std::string>& command) {
-    const runtime::ProcessResult result = runtime::run_process(
-        {.command = command, .time_limit = std::chrono::minutes(20), .output_limit = 1 << 20});
-    return result.succeeded() ? result.output : "failed:\n" + result.output;
-  };
-  ASSERT_EQ(run({"clang", "-x", "cl", "-cl-std=CL2.0", "-Wall", "-Wextra", "-Werror", "-O1",
-                 "-Wno-ignored-pragmas", "-Wno-unused-function", "-Xclang",
-                 "-finclude-default-header", "-c", path("cl.cl"), "-o", path("cl.o")}),
+  ASSERT_EQ(output_of({"clang", "-x", "cl", "-cl-std=CL2.0", "-Wall", "-Wextra", "-Werror", "-O1",
+                       "-Wno-ignored-pragmas", "-Wno-unused-function", "-Xclang",
+                       "-finclude-default-header", "-c", path("cl.cl"), "-o", path("cl.o")}),
             "");
-  ASSERT_EQ(run({"gcc", "-std=c11", "-O1", "-fno-builtin", path("main.c"), path("c.c"),
-                 path("library.c"), path("cl.o"), "-o", path("both"), "-lm"}),
+  ASSERT_EQ(output_of({"gcc", "-std=c11", "-O1", "-fno-builtin", path("main.c"), path("c.c"),
+                       path("library.c"), path("cl.o"), "-o", path("both"), "-lm"}),
             "");
-  const std::string found = run({path("both")});
+  const std::string found = output_of({path("both")});
   EXPECT_EQ(static_cast<std::size_t>(count(found, "same 1\n")), steps_in_opencl().size()) << found;
 }
 
@@ -143,7 +134,7 @@ TEST(OpenClHeader, RefusesWhatTheLanguageHasNot) {
                           Request{.scheme = "gauss-4"}, Request{.batch = 4}}) {
     request.format = "opencl-header";
     try {
-      static_cast<void>(emit(model_in_tree("pendulum"), request));
+      static_cast<void>(emit(shipped("pendulum"), request));
       ADD_FAILURE() << request.scheme.text() << request.scalar.text();
     } catch (const UsageError& error) {
       const std::string what = error.what();

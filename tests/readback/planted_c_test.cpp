@@ -111,6 +111,20 @@ TEST(PlantedFaultInC, OfTheWordsOfOpenClIsFound) {
   for (const Fault& fault : faults) expect_found(fault);
 }
 
+// What is no scalar of the language is no header in it, whatever it says.
+TEST(PlantedFaultInC, OfAScalarThatThereIsNotIsFound) {
+  const Request opencl = {.format = "opencl-header"};
+  for (const auto& [request, scalar] :
+       {std::pair(in_c(), "quad"), {opencl, "quad"}, {opencl, "long-double"}}) {
+    Emitted file = emitted("pendulum", request);
+    file.scalar = scalar;
+    const ReadBack found = file.read(file.text);
+    EXPECT_EQ(found.outcome, ReadBack::Outcome::different);
+    EXPECT_EQ(found.line, 1);
+    EXPECT_NE(found.what.find(" has no "), std::string::npos) << found.what;
+  }
+}
+
 TEST(ReadBackOfC, ATextThatComputesTheSameIsTheSame) {
   const Emitted header = emitted("pendulum", in_c());
   const std::vector<std::pair<std::string, std::string>> freedoms = {
