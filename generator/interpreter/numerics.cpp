@@ -276,7 +276,7 @@ auto at_least(int size, const Make& make) {
 // What takes time for each number that it has room for, in the order of those that sum up.
 template <class Make>
 auto at_least_up_to_256(int size, const Make& make) {
-  return at_least<1, 2, 4, 8, 16, 32, 64, 128, 256>(size, make);
+  return at_least<2, 8, 32, 64, 256>(size, make);
 }
 
 }  // namespace
@@ -330,10 +330,9 @@ std::unique_ptr<AnyFixedPointRule<Real>> Blocks<Real>::fixed_point_rule(std::str
 template <class Real>
 std::unique_ptr<AnyRefinement<Real>> Blocks<Real>::refinement(int unknowns, int components) {
   const int size = std::max(unknowns, (components + 1) / 2);
-  return at_least<1, 2, 4, 8, 16, 32, 64, 128, 256, 1024>(
-      size, [](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
-        return std::make_unique<RefinementOf<Real, decltype(n)::value>>();
-      });
+  return at_least<2, 8, 32, 128, 1024>(size, [](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
+    return std::make_unique<RefinementOf<Real, decltype(n)::value>>();
+  });
 }
 
 template <class Real>

@@ -170,7 +170,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     const Seen seen = sums_of(moved, length, way, count);
     // What is 16 times lost in the rounding of the least unknown is 1024 times lost in 64 times it,
     // and 2^20 times in 2^16 times it: with the factors of ends_at_once.
-    const Real round_off = epsilon * count;
+    const Real round_off = epsilon * Real(count);
     const Real least = 64 * epsilon * seen.shortest;
     const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
     const Real measured = Power == 2 && 1024 * least < round_off ? 1024 * least : round_off;

@@ -57,11 +57,13 @@ Routine LoopStage::gradient_error() const {
       body.push_back({Let{symbol, value}});
       return Expression::symbol(symbol, kRankOfTemporary);
     };
-    const Expression part = let("part", entry.value * z);
-    body.push_back({Collect{left.name(), lost.name(), -part}});
-    if (multiplies_exactly(entry.value)) return;
-    body.push_back({Accumulate{lost.name(),
-                               -let("lost", Expression::apply(kProductError, {entry.value, z}))}});
+    const auto names = [&](TermRole role, const Expression& value) {
+      return let(role == TermRole::product ? "part" : "lost", value);
+    };
+    const RoundedTerm part =
+        rounded_product(names, entry.value, z, !multiplies_exactly(entry.value));
+    body.push_back({Collect{left.name(), lost.name(), -part.large}});
+    if (!part.small.is_zero()) body.push_back({Accumulate{lost.name(), -part.small}});
   };
   Routine routine =
       kernel_entries(environment_, mechanics_, Part::all, b.take(), {"q"}, {"p"}, use);
@@ -82,20 +84,20 @@ Expression LoopStage::exact_lack(RoutineBuilder& b, Body& body, bool is_p,
   const Gradient at = slope(b);
   const StageRow row =
       is_p ? weights_.row_of_p(b, body, at, true) : weights_.row_of_q(b, body, at, true);
-  Expression small = state(b, "carry", field) + row.small + extra;
   // The last of the differences cancels.
-  Expression left = b.let(body, stem + "gap", z - bar);
-  small += b.let(body, stem + "gap_error", Expression::apply(kDifferenceError, {z, bar}));
-  for (std::size_t j = 0; j < row.large.size(); ++j) {
-    const std::string name = fmt::format("{}gap_{}", stem, j + 1);
-    const Expression next = b.let(body, name, left + row.large[j]);
-    if (j + 1 < row.large.size()) {
-      small +=
-          b.let(body, name + "_error", Expression::apply(kDifferenceError, {left, -row.large[j]}));
-    }
-    left = next;
-  }
-  return left + b.let(body, stem + "small", small);
+  std::vector<Expression> numbers{bar};
+  for (const Expression& term : row.large) numbers.push_back(-term);
+  std::string gap = stem + "gap";
+  const auto names = [&, count = 0](TermRole role, const Expression& value) mutable {
+    if (role == TermRole::difference_error) return b.let(body, gap + "_error", value);
+    if (count > 0) gap = fmt::format("{}gap_{}", stem, count);
+    ++count;
+    return b.let(body, gap, value);
+  };
+  Expression small = state(b, "carry", field) + row.small + extra;
+  const RoundedTerm left = rounded_difference(names, z, numbers, Errors::of_all_but_the_last);
+  small += left.small;
+  return left.large + b.let(body, stem + "small", small);
 }
 
 Expression LoopStage::own_share(RoutineBuilder& b) const {

@@ -174,10 +174,12 @@ class LoopMember : LoopStage {
     const std::string stem = kick_first ? "p_" : "q_";  // see Note [rounded once]
     const Expression gradient = kick_first ? at.by_q : -at.by_p;
     const Expression flow = b.let(each, stem + "flow", step_size() * gradient);
-    const Expression sum = b.let(each, stem + "sum", z - flow);
-    const Expression error = Expression::apply(kDifferenceError, {z, flow});
-    const Expression small = b.let(each, stem + "small", b.let(each, stem + "lost", error) + carry);
-    each.push_back({Assign{coordinate(b).name(), sum + small}});
+    const auto names = [&](TermRole role, const Expression& value) {
+      return b.let(each, stem + (role == TermRole::difference ? "sum" : "lost"), value);
+    };
+    const RoundedTerm sum = rounded_difference(names, z, {flow}, Errors::of_all);
+    const Expression small = b.let(each, stem + "small", sum.small + carry);
+    each.push_back({Assign{coordinate(b).name(), sum.large + small}});
     b.body().push_back(for_each(elements(), std::move(each)));
     b.body().push_back(
         {Call{.routine = second,

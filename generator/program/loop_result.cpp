@@ -62,7 +62,7 @@ void LoopStage::add_result(RoutineBuilder& b, bool refined) const {
       const Expression slope =
           b.at("start", refined ? "refinement.slope" : "slope", {affine("i", from)});
       const auto [product, lost] = tells_momenta && is_p
-                                       ? std::pair(b.local("p_flow"), b.local("p_flow_lost"))
+                                       ? RoundedTerm{b.local("p_flow"), b.local("p_flow_lost")}
                                        : StepWeights::flow_of(b, each, !is_p, slope);
       large = is_p ? -product : product;
       small += is_p ? -lost : lost;

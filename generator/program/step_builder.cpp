@@ -131,7 +131,7 @@ std::string StepBuilder::name_of(int i) const {
   return equations_.mechanics.variables.name(index(i));
 }
 
-std::pair<Expression, Expression> StepBuilder::increment(int i, int k) {
+RoundedTerm StepBuilder::increment(int i, int k) {
   if (gradient_[index(k)].is_zero()) return {Expression(0), Expression(0)};
   const Expression sign(i < n_ ? 1 : -1);
   const auto& [main, correction] = correction_[index(k)];
@@ -243,10 +243,13 @@ void StepBuilder::add_assignment(int i) {
   const Expression flow =
       name_value("flow(" + name_of(i) + ")",
                  -(weight(i, gradients[0]) * gradient_[index(gradients[0])]), straight());
-  const Expression first = name_value("first(" + name_of(i) + ")", z - flow, straight());
-  const Expression lost = name_value("lost(" + name_of(i) + ")",
-                                     Expression::apply(kDifferenceError, {z, flow}), straight());
-  define(stage_value_[index(i)], first + named_rest(name_of(i), lost + carry_symbol(i), straight()),
+  const auto names = [&](TermRole role, const Expression& value) {
+    const char* what = role == TermRole::difference ? "first(" : "lost(";
+    return name_value(what + name_of(i) + ")", value, straight());
+  };
+  const RoundedTerm first = rounded_difference(names, z, {flow}, Errors::of_all);
+  define(stage_value_[index(i)],
+         first.large + named_rest(name_of(i), first.small + carry_symbol(i), straight()),
          straight());
 }
 

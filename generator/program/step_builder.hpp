@@ -11,6 +11,7 @@
 #include "generator/program/linear_terms.hpp"
 #include "generator/program/lower.hpp"
 #include "generator/program/lowered_step.hpp"
+#include "generator/program/rounded_terms.hpp"
 
 namespace hamgen {
 
@@ -85,7 +86,7 @@ class StepBuilder {
   // step from h omega = 0.9 on.
   //
   // Z_i - z_i = +-h dH/dz_k with the carry, as a sum of what is large and what is small.
-  std::pair<Expression, Expression> increment(int i, int k);
+  RoundedTerm increment(int i, int k);
 
   // Note [weights that sum to one]
   // A step is symplectic if qbar_i - q_i is w and pbar_i - p_i is w - 1 times what q and p move by,
@@ -124,11 +125,11 @@ class StepBuilder {
   // those, in steps whose forces have such terms at all.
   //
   // The term of row i with dH/dz_k, and what rounding took from it.
-  [[nodiscard]] std::pair<Expression, Expression> row_terms(int i, int k,
-                                                            const Expression& gradient,
-                                                            int section);
+  [[nodiscard]] RoundedTerm row_terms(int i, int k, const Expression& gradient, int section);
   // h times this, and what rounding took from it: where h is a simple fraction a pattern again.
-  std::pair<Expression, Expression> flow_of(int k, const Expression& gradient, int section);
+  RoundedTerm flow_of(int k, const Expression& gradient, int section);
+  // The product of this text, and its error.
+  NameInTerm name_of_product(const std::string& text, int section);
   std::string short_name(const std::string& text, const std::string& place);
   // What rounding took from dH/dz_k itself.
   struct ConstantFactors {

@@ -36,31 +36,29 @@ Expression StepBuilder::lacking(int i, const Expression& value, int section) {
     const Expression& entry = equations_.stage_matrix.at({i, k});
     return entry.is_number() ? Rational(abs(entry.number())) : Rational(1, 4);
   });
+  std::vector<Expression> numbers{equations_.mechanics.variable(i)};
   std::vector<Expression> small{carry_symbol(i)};
-  Expression difference = value;
-  const auto subtract = [&](const Expression& part, bool cancels) {
-    const int before = rests_["gap " + name_of(i)]++;
-    const std::string name =
-        name_of(i) + " gap" + (before > 0 ? fmt::format(" {}", before) : std::string());
-    const Expression left = name_value(name, difference - part, section);
-    if (solves_constants_ && !cancels) {
-      const Expression lost = Expression::apply(kDifferenceError, {difference, part});
-      small.push_back(-name_value(name + " error", lost, section));
-    }
-    difference = left;
-  };
-  subtract(equations_.mechanics.variable(i), components.empty());
   for (const int k : components) {
-    const auto [large, lost] = row_terms(i, k, gradient_[index(k)], section);
-    subtract(large, k == components.back());
-    small.push_back(lost);
+    const RoundedTerm term = row_terms(i, k, gradient_[index(k)], section);
+    numbers.push_back(term.large);
+    small.push_back(term.small);
   }
-  return difference -
+  std::string gap;
+  const auto names = [&](TermRole role, const Expression& number) {
+    if (role == TermRole::difference) {
+      const int before = rests_["gap " + name_of(i)]++;
+      gap = name_of(i) + " gap" + (before > 0 ? fmt::format(" {}", before) : std::string());
+    }
+    return name_value(role == TermRole::difference ? gap : gap + " error", number, section);
+  };
+  const Errors errors = solves_constants_ ? Errors::of_all_but_the_last : Errors::none;
+  const RoundedTerm difference = rounded_difference(names, value, numbers, errors);
+  small.push_back(-difference.small);
+  return difference.large -
          named_rest("beside " + name_of(i), Expression::sum(std::move(small)), section);
 }
 
-std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, const Expression& gradient,
-                                                         int section) {
+RoundedTerm StepBuilder::row_terms(int i, int k, const Expression& gradient, int section) {
   const Expression entry = equations_.stage_matrix.at({i, k});
   // Of an iteration before this one, from its rounded end to the solution.
   const auto change = change_of_gradient_.find(k);
@@ -70,9 +68,9 @@ std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, const Exp
     return {h.high * entry * gradient, h.low * entry * gradient + weight(i, k) * later};
   }
   const std::string& of = gradient.name();
-  const auto [flow, lost_of_flow] = flow_of(k, gradient, section);
-  const Expression flow_lost = lost_of_flow + step_size() * later;
-  if (multiplies_exactly(entry)) return {entry * flow, entry * flow_lost};
+  RoundedTerm flow = flow_of(k, gradient, section);
+  flow.small += step_size() * later;
+  if (multiplies_exactly(entry)) return {entry * flow.large, entry * flow.small};
   // The larger of two weights that sum to one is multiplied, the smaller is what is left.
   const Expression sign(i < n_ ? 1 : -1);
   const bool diagonal = k == (i < n_ ? i + n_ : i - n_);
@@ -85,13 +83,20 @@ std::pair<Expression, Expression> StepBuilder::row_terms(int i, int k, const Exp
     factor = name_once("(" + to_text(factor) + ")", factor, kCoefficients);
   }
   const std::string text = short_name(to_text(factor) + "*" + of, name_of(i) + " " + of);
-  const Expression part =
-      name_once("part(" + text + ")", factor * flow, section, Lowering::Keep::apart);
-  const Expression lost =
-      name_once("lost(" + text + ")", Expression::apply(kProductError, {factor, flow}), section);
-  if (!is_left) return {sign * part, sign * lost + entry * flow_lost};
-  const Expression left = name_once("left(" + text + ")", flow - part, section);
-  return {sign * left, -(sign * lost) + entry * flow_lost};
+  const auto names = [&](TermRole role, const Expression& value) {
+    if (role == TermRole::rest) return name_once("left(" + text + ")", value, section);
+    return name_of_product(text, section)(role, value);
+  };
+  const RoundedTerm term = rounded_share(names, factor, flow.large, own * flow.small, is_left);
+  return {sign * term.large, sign * term.small};
+}
+
+NameInTerm StepBuilder::name_of_product(const std::string& text, int section) {
+  return [this, text, section](TermRole role, const Expression& value) {
+    if (role == TermRole::product)
+      return name_once("part(" + text + ")", value, section, Lowering::Keep::apart);
+    return name_once("lost(" + text + ")", value, section);
+  };
 }
 
 // The product's own text, or of a long one, whose first place names it, that place.
@@ -100,19 +105,20 @@ std::string StepBuilder::short_name(const std::string& text, const std::string& 
   return text.size() <= longest ? text : short_names_.try_emplace(text, place).first->second;
 }
 
-std::pair<Expression, Expression> StepBuilder::flow_of(int k, const Expression& gradient,
-                                                       int section) {
+RoundedTerm StepBuilder::flow_of(int k, const Expression& gradient, int section) {
   const std::string text = "h*" + gradient.name();
-  const Expression flow = name_once(text, step_size() * gradient, section, Lowering::Keep::apart);
-  if (!keeps_losses_ || !is_of_state(k)) return {flow, Expression(0)};
-  Expression lost = name_once("lost(" + text + ")",
-                              Expression::apply(kProductError, {step_size(), gradient}), section);
+  const bool tells = keeps_losses_ && is_of_state(k);
+  const auto names = [&](TermRole role, const Expression& value) {
+    if (role == TermRole::product) return name_once(text, value, section, Lowering::Keep::apart);
+    return name_once("lost(" + text + ")", value, section);
+  };
+  RoundedTerm flow = rounded_product(names, step_size(), gradient, tells);
   const auto of_gradient = lost_of_gradient_.find(gradient.name());
-  if (of_gradient != lost_of_gradient_.end()) {
-    lost =
-        name_once("lost(" + text + ") in all", lost + step_size() * of_gradient->second, section);
+  if (tells && of_gradient != lost_of_gradient_.end()) {
+    flow.small = name_once("lost(" + text + ") in all",
+                           flow.small + step_size() * of_gradient->second, section);
   }
-  return {flow, lost};
+  return flow;
 }
 
 // Where its factors are constant: the components of the stage that it is a sum of products with.
@@ -164,25 +170,24 @@ void StepBuilder::find_lost_of_gradient(int k, int section) {
     const Expression& value = stage_value_[index(v)];
     const std::string text =
         short_name(to_text(factor) + "*" + value.name(), gradient.name() + " " + value.name());
-    const Expression number = constant(factor);
-    parts.push_back(
-        name_once("part(" + text + ")", number * value, section, Lowering::Keep::apart));
-    if (!multiplies_exactly(factor)) {
-      small.push_back(name_once("lost(" + text + ")",
-                                Expression::apply(kProductError, {number, value}), section));
-    }
+    const RoundedTerm part = rounded_product(name_of_product(text, section), constant(factor),
+                                             value, !multiplies_exactly(factor));
+    parts.push_back(part.large);
+    if (!part.small.is_zero()) small.push_back(part.small);
   }
-  // The last difference cancels and has no error.
-  Expression left = gradient;
-  for (std::size_t j = 0; parts.size() > 1 && j < parts.size(); ++j) {
-    const Expression difference = named_rest("left " + gradient.name(), left - parts[j], section);
-    if (j + 1 < parts.size()) {
-      const Expression lost = Expression::apply(kDifferenceError, {left, parts[j]});
-      small.push_back(-name_value("lost" + difference.name().substr(4), lost, section));
-    } else {
-      small.push_back(-difference);
-    }
-    left = difference;
+  if (parts.size() > 1) {
+    // The last difference cancels and has no error.
+    std::string last;
+    const auto names = [&](TermRole role, const Expression& number) {
+      if (role == TermRole::difference_error) return name_value("lost" + last, number, section);
+      const Expression difference = named_rest("left " + gradient.name(), number, section);
+      last = difference.name().substr(4);
+      return difference;
+    };
+    const RoundedTerm left =
+        rounded_difference(names, gradient, parts, Errors::of_all_but_the_last);
+    small.push_back(-left.small);
+    small.push_back(-left.large);
   }
   if (small.empty()) return;
   lost_of_gradient_[gradient.name()] =

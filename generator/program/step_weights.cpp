@@ -77,10 +77,13 @@ void StepWeights::bind(Routine& routine) const {
 void StepWeights::add_product(RoutineBuilder& b, Body& body, StageRow& row, const std::string& name,
                               const Expression& sign, const Expression& weight,
                               const Expression& slope, bool exactly) {
-  row.large.push_back(sign * b.let(body, exactly ? name + "_rounded" : name, weight * slope));
-  if (!exactly) return;
-  const Expression lost = Expression::apply(kProductError, {weight, slope});
-  row.small += sign * b.let(body, name + "_lost", lost);
+  const auto names = [&](TermRole role, const Expression& value) {
+    const bool is_lost = role == TermRole::product_error;
+    return b.let(body, is_lost ? name + "_lost" : exactly ? name + "_rounded" : name, value);
+  };
+  const RoundedTerm term = rounded_product(names, weight, slope, exactly);
+  row.large.push_back(sign * term.large);
+  row.small += sign * term.small;
 }
 
 void StepWeights::add_share(RoutineBuilder& b, Body& body, StageRow& row, bool is_q,
@@ -93,26 +96,27 @@ void StepWeights::add_share(RoutineBuilder& b, Body& body, StageRow& row, bool i
     add_product(b, body, row, stem + "push", sign, *by, slope, exactly);
     return;
   }
-  const auto [flow, flow_lost] = flow_of(b, body, is_q, slope);
+  const RoundedTerm flow = flow_of(b, body, is_q, slope);
   const Expression share = weight("share");
-  const Expression part = b.let(body, stem + "part", share * flow);
-  const Expression lost =
-      b.let(body, stem + "lost", Expression::apply(kProductError, {share, flow}));
-  if (is_q == q_takes_more) {
-    row.large.push_back(sign * part);
-    row.small += sign * (lost + share * flow_lost);
-  } else {
-    row.large.push_back(sign * b.let(body, stem + "left", flow - part));
-    row.small += sign * (flow_lost - share * flow_lost - lost);
-  }
+  const bool is_left = is_q != q_takes_more;
+  const auto names = [&](TermRole role, const Expression& value) {
+    const char* of = role == TermRole::product ? "part" : role == TermRole::rest ? "left" : "lost";
+    return b.let(body, stem + of, value);
+  };
+  const Expression shared = share * flow.small;
+  const Expression small = is_left ? flow.small - shared : shared;
+  const RoundedTerm term = rounded_share(names, share, flow.large, small, is_left);
+  row.large.push_back(sign * term.large);
+  row.small += sign * term.small;
 }
 
-std::pair<Expression, Expression> StepWeights::flow_of(RoutineBuilder& b, Body& body, bool is_q,
-                                                       const Expression& slope) {
+RoundedTerm StepWeights::flow_of(RoutineBuilder& b, Body& body, bool is_q,
+                                 const Expression& slope) {
   const std::string stem = is_q ? "q_" : "p_";
-  const Expression flow = b.let(body, stem + "flow", step_size() * slope);
-  return {flow,
-          b.let(body, stem + "flow_lost", Expression::apply(kProductError, {step_size(), slope}))};
+  const auto names = [&](TermRole role, const Expression& value) {
+    return b.let(body, stem + (role == TermRole::product ? "flow" : "flow_lost"), value);
+  };
+  return rounded_product(names, step_size(), slope);
 }
 
 StageRow StepWeights::row_of_q(RoutineBuilder& b, Body& body, const Gradient& at,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/program/rounded_terms.hpp"
 #include "generator/program/routine_builder.hpp"
 #include "generator/schemes/scheme.hpp"
 
@@ -57,8 +58,7 @@ struct StepWeights {
   [[nodiscard]] StageRow row_of_p(RoutineBuilder& b, Body& body, const Gradient& at,
                                   bool exactly = false) const;
   // h times a slope as a local of the body, and what rounding took from it.
-  static std::pair<Expression, Expression> flow_of(RoutineBuilder& b, Body& body, bool is_q,
-                                                   const Expression& slope);
+  static RoundedTerm flow_of(RoutineBuilder& b, Body& body, bool is_q, const Expression& slope);
 
  private:
   bool splits_flow_ = false;

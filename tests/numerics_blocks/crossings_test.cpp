@@ -43,8 +43,8 @@ TYPED_TEST(CrossingSearch, ARootIsFoundToRounding) {
     TestFixture::expect_root(f, x);
   };
   expect([](Real x) { return 3 * x * x * x + x - 1; });
-  expect([](Real x) { return 1 - 1000000 * x; });           // near one end
-  expect([](Real x) { return x < Real(1) / 3 ? -1 : 1; });  // the secant says nothing
+  expect([](Real x) { return 1 - 1000000 * x; });                 // near one end
+  expect([](Real x) { return Real(x < Real(1) / 3 ? -1 : 1); });  // the secant says nothing
   const auto nineth = [](Real x) {
     const Real y = 2 * x - 1;
     return y * y * y * y * y * y * y * y * y;  // flat: its value is 0 long before the root is met

@@ -5,6 +5,9 @@
 
 namespace hamgen::numerics_blocks_test {
 
+// As strict as what compiles an emitted file may be.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic error "-Wconversion"
 namespace of_float {
 using Real = float;
 inline constexpr int digits = 24;
@@ -28,6 +31,7 @@ __extension__ typedef __float128 Real;
 inline constexpr int digits = 113;
 #include "tests/numerics_blocks/blocks.inc"
 }  // namespace of_quad
+#pragma GCC diagnostic pop
 
 using EveryScalar =
     ::testing::Types<of_float::Blocks, of_double::Blocks, of_long_double::Blocks, of_quad::Blocks>;
