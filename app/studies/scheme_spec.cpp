@@ -120,6 +120,7 @@ std::vector<std::string> default_specs(const Mechanics& mechanics) {
       {.most_degrees_of_freedom = 1, .specs = {"implicit-midpoint:order=8"}},
       {.most_degrees_of_freedom = 1, .specs = {"implicit-midpoint:order=10"}},
       {.specs = {"omelyan-4"}},
+      {.specs = {"mclachlan-4-sb3a"}},
       {.specs = {"blanes-moan-rkn-6", "blanes-moan-6", "kahan-li-6"}},
       {.specs = {"kahan-li-8-verlet", "kahan-li-8"}},
       {.specs = {"sofroniou-spaletta-10-verlet", "sofroniou-spaletta-10"}},
