@@ -304,7 +304,7 @@ json seen_in_browser(const Scratch& scratch, const std::string& probe, bool dark
     result = runtime::run_process(request);
   } catch (const runtime::ToolError&) {
     ADD_FAILURE() << "chromium is not there, so the page was not opened in a browser; "
-                     "scripts/install-dependencies test installs it";
+                     "scripts/install-dependencies full installs it";
     return json::array();
   }
   EXPECT_TRUE(result.succeeded()) << runtime::end_text(result, request);
