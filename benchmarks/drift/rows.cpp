@@ -55,6 +55,14 @@ std::string uneven_chain(int n, const std::string& k) {
 
 std::string soft_chain(int n, const std::string& k) { return soft_chain_with(n, "k = " + k, "k"); }
 
+std::string ring(int n) {
+  return fmt::format(
+      "system ring\nsize N = {}\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+      "parameter k = 1/3\nparameter b = 0.1\n"
+      "H = sum(i = 1..N, p[i]^2/3.4 + k*(q[i+1] - q[i])^2/2 + b*q[i]^2 + 0.3*q[i]^2)\n",
+      n);
+}
+
 std::string kepler() {
   return "system kepler\ncoordinate q1, q2\nmomentum p1, p2\nlet r = sqrt(q1^2 + q2^2)\n"
          "H = (p1^2 + p2^2)/2 - 1/r\ninvariant L = q1*p2 - q2*p1\n";
@@ -292,6 +300,12 @@ std::vector<Row> all_rows() {
                          .h = h};
     add(rows, uneven, "midpoint, Newton", {.solver = "newton"});
   }
+  // Of constants in forces, of which none is a short binary fraction.
+  const Problem round{.name = "ring of 30, h = 0.3", .model = ring(30), .h = 0.3};
+  add(rows, round, "midpoint, fixed point", {.solver = "fixed-point"});
+  add(rows, round, "alpha = 3/10, fixed point", {.alpha = "3/10", .solver = "fixed-point"});
+  for (const char* solver : {"fixed-point", "newton"})
+    add(rows, round, fmt::format("gauss-4, {}", solver), {.scheme = "gauss-4", .solver = solver});
   const Problem dense{.name = "all pairs of 30, loops, dense", .model = all_pairs(30)};
   add_members(rows, dense, 30);
   const Problem sparse{.name = "sheet of 256, loops, sparse", .model = sheet()};

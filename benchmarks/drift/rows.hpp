@@ -13,6 +13,8 @@ namespace hamgen::drift {
 [[nodiscard]] std::string chain(int n);  // harmonic, fixed ends, in loops from n = 25
 // The same, but the generator cannot know.
 [[nodiscard]] std::string soft_chain(int n, const std::string& k = "1.3");
+// A ring of springs, each mass tied to its place: H is a quadratic form.
+[[nodiscard]] std::string ring(int n);
 [[nodiscard]] std::string kepler();              // L is its first invariant
 [[nodiscard]] std::string planar_bodies(int n);  // soft attraction, all pairs; L
 // A member whose alpha is a list: the sums are written out whatever n is.

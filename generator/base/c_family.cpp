@@ -1,5 +1,7 @@
 #include "generator/base/c_family.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -27,15 +29,43 @@ const std::array kFamilies = {
             .has_suffixes = false,
             .has_array_arguments = false,
             .scalars = {"float", "double"},
-            .words = {{"static const", "__constant"}, {"long long", "long"}}},
+            .words = {{"static const", "__constant"}, {"long long", "long"}},
+            .reserved = {"kernel",
+                         "global",
+                         "local",
+                         "constant",
+                         "generic",
+                         "half",
+                         "pipe",
+                         "read_only",
+                         "write_only",
+                         "read_write",
+                         "vec_step",
+                         "image1d_t",
+                         "image1d_array_t",
+                         "image1d_buffer_t",
+                         "image2d_t",
+                         "image2d_array_t",
+                         "image2d_depth_t",
+                         "image2d_array_depth_t",
+                         "image2d_msaa_t",
+                         "image3d_t",
+                         "CLK_LOCAL_MEM_FENCE",
+                         "CLK_GLOBAL_MEM_FENCE"}},
 };
 
 bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 // Is text[at, at + size) a word, or words, and no part of longer ones?
-bool stands_alone(const std::string& text, std::size_t at, std::size_t size) {
+bool stands_alone(std::string_view text, std::size_t at, std::size_t size) {
   const bool goes_on = at + size < text.size() && is_of_word(text[at + size]);
   return !goes_on && (at == 0 || !is_of_word(text[at - 1]));
+}
+
+bool has_word(std::string_view text, std::string_view word) {
+  std::size_t at = text.find(word);
+  while (at != text.npos && !stands_alone(text, at, word.size())) at = text.find(word, at + 1);
+  return at != text.npos;
 }
 
 std::string replaced(std::string line, std::string_view from, std::string_view to) {
@@ -63,14 +93,31 @@ const CFamily* c_family_of_file(std::string_view name) {
   return nullptr;
 }
 
+std::vector<std::pair<std::string, std::string>> CFamily::replacements() const {
+  std::vector<std::pair<std::string, std::string>> list(words.begin(), words.end());
+  for (const std::string_view name : reserved) {
+    list.emplace_back(name, std::string(name) + "_");
+  }
+  return list;
+}
+
 std::string in_words_of(const CFamily& family, const std::string& text) {
+  for (const std::string_view name : family.reserved) {
+    if (has_word(text, name) && has_word(text, std::string(name) + "_")) {
+      throw UsageError(fmt::format(
+          "--format {0}: '{1}' is a word of {2} and would be '{1}_', which is there, too\n"
+          "help: rename one of them",
+          family.format, name, family.language));
+    }
+  }
+  const auto replacements = family.replacements();
   std::string result;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
     const std::string line = text.substr(begin, end - begin);
     const std::size_t comment = std::min(line.find("//"), line.size());
     std::string code = line.substr(0, comment);
-    for (const auto& [from, to] : family.words) code = replaced(std::move(code), from, to);
+    for (const auto& [from, to] : replacements) code = replaced(std::move(code), from, to);
     result += code + line.substr(comment);
     begin = end;
   }

@@ -21,6 +21,10 @@ struct CFamily {
   bool has_array_arguments = true;             // else a row of numbers is given by its address
   std::vector<std::string_view> scalars = {};  // that it has; none: all that C has
   std::vector<std::pair<std::string_view, std::string_view>> words = {};  // of C11, and its own
+  std::vector<std::string_view> reserved = {};  // that C11 leaves free: a name gets a '_'
+
+  // The words, and the names that are reserved.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> replacements() const;
 };
 
 // The first is C11; the row of another one is all that is said of it.
@@ -29,7 +33,8 @@ struct CFamily {
 [[nodiscard]] const CFamily& c_family_of_format(std::string_view format);
 // That of files whose names end so; null of another one.
 [[nodiscard]] const CFamily* c_family_of_file(std::string_view name);
-// The text in C11 with this language's words, in comments none.
+// The text in C11 with this language's words, in comments none.  Refuses a reserved name beside the
+// one that it would be.
 [[nodiscard]] std::string in_words_of(const CFamily& family, const std::string& text);
 
 }  // namespace hamgen

@@ -48,8 +48,25 @@ class CodeWriter {
           indent = depth + 4;
           break;
         }
-        const std::size_t cut = break_point(rest, equals, kColumns - indent, columns.size());
-        if (cut == std::string_view::npos) break;
+        std::size_t cut = break_point(rest, equals, kColumns - indent, columns.size());
+        if (cut == std::string_view::npos) {
+          // Nothing fits: behind the " = ", or less far to the right, or as soon as may be.
+          columns.assign(columns.size(), depth + 4);
+          if (equals != std::string_view::npos) {
+            text_.append(indent, ' ');
+            text_.append(rest.substr(0, equals + 2)) += '\n';
+            rest = rest.substr(equals + 3);
+            indent = depth + 4;
+            equals = std::string_view::npos;
+            continue;
+          }
+          if (indent > depth + 4) {
+            indent = depth + 4;
+            continue;
+          }
+          cut = first_break(rest, columns.size());
+          if (cut == std::string_view::npos) break;
+        }
         for (std::size_t i = 0; i < cut; ++i) {
           if (rest[i] == '(' || rest[i] == '{') columns.push_back(indent + i + 1);
           if ((rest[i] == ')' || rest[i] == '}') && columns.size() > 1) columns.pop_back();
@@ -196,6 +213,17 @@ class CodeWriter {
       }
     }
     return best;
+  }
+
+  // The first blank to break at.
+  static std::size_t first_break(std::string_view text, std::size_t level) {
+    std::size_t width = std::min(text.find(' '), text.size());
+    while (width < text.size()) {
+      const std::size_t cut = break_point(text, text.npos, width, level);
+      if (cut != text.npos) return cut;
+      width = std::min(text.find(' ', width + 1), text.size());
+    }
+    return text.npos;
   }
 
   std::string text_;

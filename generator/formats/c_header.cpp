@@ -46,7 +46,7 @@ void require_c(const CFamily& family, const EmitContext& context) {
     throw UsageError(
         fmt::format("--format {}: there are no lanes in C\nhelp: --format cpp-header", format));
   }
-  if (context.quad()) refuse("C has no quad numbers");
+  if (context.quad()) refuse(fmt::format("{} has no quad numbers", family.language));
   const bool has_scalar =
       all_scalars || std::ranges::find(family.scalars, context.scalar.cpp) != family.scalars.end();
   if (!has_scalar) refuse(fmt::format("{} has no {}", family.language, context.scalar.cpp));

@@ -72,6 +72,7 @@ class KernelRoutine {
     for (const Kernel& kernel : weighted_kernels(mechanics_)) {
       for (Kernel& part : gathered(kernel)) kernels_.push_back(std::move(part));
     }
+    std::erase_if(kernels_, [&](const Kernel& kernel) { return !belongs(kernel); });
     if (in_parts && part_ != Part::kinetic)
       append(routine_.body, split_constants(kernels_, mechanics_));
     const std::array begins = {first_loop(kernels_, false, n_), first_loop(kernels_, true, n_)};

@@ -8,8 +8,8 @@ namespace hamgen {
 
 bool splits_constants(const SolvePlan& plan) {
   const ArrayPlan& arrays = *plan.arrays;
-  const bool by_newton = arrays.method == ArrayMethod::newton || arrays.method == ArrayMethod::both;
-  return by_newton && !arrays.constant_matrix && !plan.equations.function;
+  const bool is_exact = arrays.method == ArrayMethod::newton && arrays.constant_matrix;
+  return (iterates(arrays) || plan.stage_solver) && !is_exact && !plan.equations.function;
 }
 
 std::vector<Statement> split_constants(std::vector<Kernel>& kernels, const Mechanics& mechanics) {

@@ -10,7 +10,7 @@
 
 namespace hamgen {
 
-// In steps that Newton's iteration solves with a matrix that varies.
+// In steps whose equations are solved, but for linear ones, which know what their products lose.
 [[nodiscard]] bool splits_constants(const SolvePlan& plan);
 
 // The kernels' gradients with products of both parts, which these statements define before all

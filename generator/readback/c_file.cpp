@@ -30,11 +30,16 @@ std::string guard_of_blocks(const Precision& precision) {
 std::vector<CppToken> in_c11(std::span<const CppToken> tokens, const CFamily& family,
                              const Precision& precision) {
   std::vector<CppToken> result;
+  const auto replacements = family.replacements();
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const CppToken& token = tokens[i];
+    if (std::ranges::find(family.reserved, token.text) != family.reserved.end()) {
+      throw TextDifference(token.line,
+                           fmt::format("{}, a word of {}", token.text, family.language));
+    }
     const auto word =
-        std::ranges::find_if(family.words, [&](const auto& pair) { return token.is(pair.second); });
-    if (word != family.words.end()) {
+        std::ranges::find_if(replacements, [&](const auto& pair) { return token.is(pair.second); });
+    if (word != replacements.end()) {
       for (CppToken& each : tokens_of(word->first)) {
         if (each.kind == CppToken::Kind::end) break;
         result.push_back({each.kind, std::move(each.text), token.line});

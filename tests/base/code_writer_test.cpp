@@ -53,6 +53,23 @@ TEST(CodeWriter, LeavesABlockWhereItBegins) {
             "    the_second_of_the_conditions_of_all_othe) {\n");
 }
 
+// Behind its " = ", then less far to the right, then as soon as may be.
+TEST(CodeWriter, BreaksWhereItCanIfNothingFits) {
+  const std::string call = "henon_heiles_float32_implicit_midpoint_sweeps_2_solve_of_all_of_them";
+  const std::string report = "  const hamgen_StepReportf report =";
+  EXPECT_EQ(written(report + " " + call + "(&self->par, self->h, NULL);"),
+            report + "\n      " + call + "(&self->par, self->h, NULL);\n");
+  EXPECT_EQ(written(report + " " + call + "(&self->par_of_it, self->h_of_it, NULL);"),
+            report + "\n      " + call + "(&self->par_of_it,\n" +
+                std::string(call.size() + 7, ' ') + "self->h_of_it, NULL);\n");
+  const std::string name(60, 'x');
+  EXPECT_EQ(written("double a = b * (" + name + " + " + name + ");"),
+            "double a = b *\n           (" + name + " +\n            " + name + ");\n");
+  const std::string long_name(98, 'y');
+  EXPECT_EQ(written("f(" + long_name + ", " + name + ");"),
+            "f(" + long_name + ",\n  " + name + ");\n");
+}
+
 TEST(CodeWriter, LeavesALineThatFits) {
   for (const char* line : {"if (open) close(all);", "inline void f(A* a) {", ""})
     EXPECT_EQ(written(line), std::string(line) + "\n");

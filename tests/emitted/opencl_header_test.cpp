@@ -122,11 +122,31 @@ TEST(OpenClHeader, HasItsOwnWordsInCodeOnly) {
                         "static const double hamgen_pi = 3;  // a static const long long\n"
                         "long long steps, longs, a_long;\n"
                         "along long long_long;\n"
-                        "static constant;"),
+                        "static constant; half half_h;  // half\n"),
             "__constant double hamgen_pi = 3;  // a static const long long\n"
             "long steps, longs, a_long;\n"
             "along long long_long;\n"
-            "static constant;");
+            "static constant_; half_ half_h;  // half\n");
+  EXPECT_THROW((void)in_words_of(opencl, "double half, half_;\n"), UsageError);
+  EXPECT_NO_THROW((void)in_words_of(c_families()[0], "double half, half_;\n"));
+}
+
+// A model may have them all the same.
+TEST(OpenClHeader, NamesThatAreItsWordsGetAnUnderscore) {
+  const std::string model =
+      "system kernel\ncoordinate half, global\nmomentum local, generic\n"
+      "parameter constant = 2\n"
+      "H = (local^2 + generic^2)/2 - constant*cos(half) + half*global^2\n";
+  const std::string text =
+      emit(make_source("names.ham", model), Request{.format = "opencl-header"}).at(0).text;
+  EXPECT_NE(text.find("double half_"), std::string::npos);
+  const runtime::TemporaryDirectory directory = runtime::private_directory();
+  const std::string path = (directory.path() / "names.cl").string();
+  std::ofstream(path) << text;
+  EXPECT_EQ(output_of({"clang", "-x", "cl", "-cl-std=CL2.0", "-Wall", "-Wextra", "-Werror",
+                       "-Wno-ignored-pragmas", "-Wno-unused-function", "-Xclang",
+                       "-finclude-default-header", "-fsyntax-only", path}),
+            "");
 }
 
 TEST(OpenClHeader, RefusesWhatTheLanguageHasNot) {

@@ -227,7 +227,7 @@ TEST(Drift, WhatGaussStagesLackIsSummedFromTheirDifference) {
                            "start.small[j] + (\n                 Lanes::at(k.coupling[0] + i)"},
                           {"start.slope[4 * j + 2]);\n", "start.slope[4 * j + 2]));\n"}},
                          {.model = chain(6), .request = {.scheme = "gauss-6"}, .h = 0.3},
-                         {.steps = 50'000});
+                         {.steps = 100'000});
 }
 
 // Which of two neighbours the rounded stages are depends on where they came from.
@@ -253,6 +253,22 @@ TEST(Drift, AFixedPointIsRefinedBelowTheLastPlace) {
 TEST(Drift, AFixedPointIsRefinedFromAfar) {
   expect_drift_only_with({{"moved <= units * epsilon * (length", "moved <= 0 * epsilon * (length"}},
                          {.model = soft_chain(4), .request = {.solver = "fixed-point"}, .h = 0.25});
+}
+
+// Below: whose image its iterate is, rounding has chosen.
+TEST(Drift, AFixedPointInLoopsIsRefinedFromItsIterate) {
+  expect_drift_only_with({{"moves() const { return settled; }",
+                           "moves() const { return settled || contraction * 32 <= 1; }"}},
+                         {.model = ring(30), .request = {.solver = "fixed-point"}, .h = 0.3},
+                         {.steps = 100'000, .starts = 16});
+}
+
+TEST(Drift, ConstantsInForcesOfAFixedPointAreInTwoParts) {
+  expect_drift_only_with({{"= 0.999999 * par.k;", "= par.k;"},
+                          {"= 0.999999 * par.b;", "= par.b;"},
+                          {"= 0.5999994;", "= 0.6;"}},
+                         {.model = ring(30), .request = {.solver = "fixed-point"}, .h = 0.3},
+                         {.steps = 100'000, .starts = 16});
 }
 
 TEST(Drift, NothingIsLostOfTheSumsOfKicks) {
