@@ -12,6 +12,29 @@ namespace hamgen {
 
 namespace {
 
+const std::vector<std::string_view> kWordsOfOpenCl = {"kernel",
+                                                      "global",
+                                                      "local",
+                                                      "constant",
+                                                      "generic",
+                                                      "half",
+                                                      "pipe",
+                                                      "read_only",
+                                                      "write_only",
+                                                      "read_write",
+                                                      "vec_step",
+                                                      "image1d_t",
+                                                      "image1d_array_t",
+                                                      "image1d_buffer_t",
+                                                      "image2d_t",
+                                                      "image2d_array_t",
+                                                      "image2d_depth_t",
+                                                      "image2d_array_depth_t",
+                                                      "image2d_msaa_t",
+                                                      "image3d_t",
+                                                      "CLK_LOCAL_MEM_FENCE",
+                                                      "CLK_GLOBAL_MEM_FENCE"};
+
 const std::array kFamilies = {
     CFamily{.format = "c-header",
             .language = "C11",
@@ -30,28 +53,7 @@ const std::array kFamilies = {
             .has_array_arguments = false,
             .scalars = {"float", "double"},
             .words = {{"static const", "__constant"}, {"long long", "long"}},
-            .reserved = {"kernel",
-                         "global",
-                         "local",
-                         "constant",
-                         "generic",
-                         "half",
-                         "pipe",
-                         "read_only",
-                         "write_only",
-                         "read_write",
-                         "vec_step",
-                         "image1d_t",
-                         "image1d_array_t",
-                         "image1d_buffer_t",
-                         "image2d_t",
-                         "image2d_array_t",
-                         "image2d_depth_t",
-                         "image2d_array_depth_t",
-                         "image2d_msaa_t",
-                         "image3d_t",
-                         "CLK_LOCAL_MEM_FENCE",
-                         "CLK_GLOBAL_MEM_FENCE"}},
+            .reserved = kWordsOfOpenCl},
 };
 
 bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -103,11 +105,12 @@ std::vector<std::pair<std::string, std::string>> CFamily::replacements() const {
 
 std::string in_words_of(const CFamily& family, const std::string& text) {
   for (const std::string_view name : family.reserved) {
-    if (has_word(text, name) && has_word(text, std::string(name) + "_")) {
-      throw UsageError(fmt::format(
-          "--format {0}: '{1}' is a word of {2} and would be '{1}_', which is there, too\n"
-          "help: rename one of them",
-          family.format, name, family.language));
+    const std::string renamed = std::string(name) + "_";
+    if (has_word(text, renamed)) {
+      throw UsageError(
+          fmt::format("--format {}: '{}' is what '{}', a word of {}, would be called\n"
+                      "help: rename it",
+                      family.format, renamed, name, family.language));
     }
   }
   const auto replacements = family.replacements();

@@ -33,8 +33,8 @@ struct CFamily {
 [[nodiscard]] const CFamily& c_family_of_format(std::string_view format);
 // That of files whose names end so; null of another one.
 [[nodiscard]] const CFamily* c_family_of_file(std::string_view name);
-// The text in C11 with this language's words, in comments none.  Refuses a reserved name beside the
-// one that it would be.
+// The text in C11 with this language's words, in comments none.  Refuses a name that a reserved one
+// would get.
 [[nodiscard]] std::string in_words_of(const CFamily& family, const std::string& text);
 
 }  // namespace hamgen

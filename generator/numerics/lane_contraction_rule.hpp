@@ -38,7 +38,7 @@ struct ContractionRule : FixedPointRule<2> {
     return end(judgement);
   }
   // Is the last increment made?
-  Mask moves() const { return settled; }
+  Mask moves() const { return settled | (contraction * 96 <= 1); }
   // It may rise at once but falls slowly: one small increment may be luck.
   void learn(const Mask& lanes, const Real& seen) {
     const Mask takes = (contraction >= largest) | (seen > contraction) | (4 * seen > contraction);

@@ -33,10 +33,6 @@ std::vector<CppToken> in_c11(std::span<const CppToken> tokens, const CFamily& fa
   const auto replacements = family.replacements();
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const CppToken& token = tokens[i];
-    if (std::ranges::find(family.reserved, token.text) != family.reserved.end()) {
-      throw TextDifference(token.line,
-                           fmt::format("{}, a word of {}", token.text, family.language));
-    }
     const auto word =
         std::ranges::find_if(replacements, [&](const auto& pair) { return token.is(pair.second); });
     if (word != replacements.end()) {

@@ -43,7 +43,7 @@ TYPED_TEST(ContractionRule, LeavesMoreThanThatToRefinement) {
 // The last increment is left to Refinement where rounding is seen through the contraction, or where
 // that is not known.
 TYPED_TEST(ContractionRule, MakesTheLastIncrementWhereItContractsMuch) {
-  for (const auto& [contraction, moves] : {std::pair(0x1p-5, true), std::pair(0x1p-4, false)}) {
+  for (const auto& [contraction, moves] : {std::pair(0x1p-7, true), std::pair(0x1p-6, false)}) {
     auto rule = this->with_contraction(contraction);
     EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
     EXPECT_FALSE(rule.settled);
