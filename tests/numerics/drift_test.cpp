@@ -268,7 +268,7 @@ TEST(Drift, ConstantsInForcesOfAFixedPointAreInTwoParts) {
                           {"= 0.999999 * par.b;", "= par.b;"},
                           {"= 0.5999994;", "= 0.6;"}},
                          {.model = ring(30), .request = {.solver = "fixed-point"}, .h = 0.3},
-                         {.steps = 100'000, .starts = 16});
+                         {.steps = 50'000, .starts = 12});
 }
 
 TEST(Drift, NothingIsLostOfTheSumsOfKicks) {
