@@ -70,6 +70,17 @@ bool has_word(std::string_view text, std::string_view word) {
   return at != text.npos;
 }
 
+// Refuses names that reserved ones would get: they could not be told from each other.
+void require_free(const CFamily& family, std::string_view code) {
+  for (const std::string_view name : family.reserved) {
+    const std::string renamed = std::string(name) + "_";
+    if (!has_word(code, renamed)) continue;
+    throw UsageError(fmt::format(
+        "--format {}: '{}' is what '{}', a word of {}, would be called\nhelp: rename it",
+        family.format, renamed, name, family.language));
+  }
+}
+
 std::string replaced(std::string line, std::string_view from, std::string_view to) {
   for (std::size_t at = line.find(from); at != line.npos; at = line.find(from, at)) {
     if (stands_alone(line, at, from.size())) line.replace(at, from.size(), to);
@@ -104,15 +115,6 @@ std::vector<std::pair<std::string, std::string>> CFamily::replacements() const {
 }
 
 std::string in_words_of(const CFamily& family, const std::string& text) {
-  for (const std::string_view name : family.reserved) {
-    const std::string renamed = std::string(name) + "_";
-    if (has_word(text, renamed)) {
-      throw UsageError(
-          fmt::format("--format {}: '{}' is what '{}', a word of {}, would be called\n"
-                      "help: rename it",
-                      family.format, renamed, name, family.language));
-    }
-  }
   const auto replacements = family.replacements();
   std::string result;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -120,6 +122,7 @@ std::string in_words_of(const CFamily& family, const std::string& text) {
     const std::string line = text.substr(begin, end - begin);
     const std::size_t comment = std::min(line.find("//"), line.size());
     std::string code = line.substr(0, comment);
+    require_free(family, code);
     for (const auto& [from, to] : replacements) code = replaced(std::move(code), from, to);
     result += code + line.substr(comment);
     begin = end;

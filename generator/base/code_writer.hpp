@@ -40,12 +40,16 @@ class CodeWriter {
         return line(std::string(blanks + 2, ' ').append(rest.substr(begin)));
       }
       std::size_t equals = rest.find(" = ");
+      const auto go_on_behind_equals = [&] {
+        text_.append(indent, ' ');
+        text_.append(rest.substr(0, equals + 2)) += '\n';
+        rest = rest.substr(equals + 3);
+        indent = depth + 4;
+        equals = rest.npos;
+      };
       while (indent + rest.size() > kColumns) {
         if (equals != std::string_view::npos && depth + 4 + rest.size() - equals - 3 <= kColumns) {
-          text_.append(indent, ' ');
-          text_.append(rest.substr(0, equals + 2)) += '\n';
-          rest = rest.substr(equals + 3);
-          indent = depth + 4;
+          go_on_behind_equals();
           break;
         }
         std::size_t cut = break_point(rest, equals, kColumns - indent, columns.size());
@@ -53,11 +57,7 @@ class CodeWriter {
           // Nothing fits: behind the " = ", or less far to the right, or as soon as may be.
           columns.assign(columns.size(), depth + 4);
           if (equals != std::string_view::npos) {
-            text_.append(indent, ' ');
-            text_.append(rest.substr(0, equals + 2)) += '\n';
-            rest = rest.substr(equals + 3);
-            indent = depth + 4;
-            equals = std::string_view::npos;
+            go_on_behind_equals();
             continue;
           }
           if (indent > depth + 4) {

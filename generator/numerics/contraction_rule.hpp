@@ -15,7 +15,8 @@
 // The image of the last iterate is near a point that the rounded map takes to itself, and which one
 // that is its rounding has chosen, as far as it is seen through the contraction: 13 bodies lost
 // 3e-4 roundings a step by a slow one, a linear ring of 30 2e-4 by one of 1/36, 9e-5 by 1/80, and
-// nothing by 1/142.  Refinement begins at the iterate itself.
+// nothing by 1/142.  Refinement begins at the iterate itself, down to 1/96, where what is
+// seen, in proportion to the contraction, is below the 1e-4 that a step may be off in the mean.
 struct ContractionRule {
   FixedPointRule<2> rule;
   Real contraction = largest;  // where nothing is known

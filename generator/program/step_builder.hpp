@@ -128,7 +128,7 @@ class StepBuilder {
   [[nodiscard]] RoundedTerm row_terms(int i, int k, const Expression& gradient, int section);
   // h times this, and what rounding took from it: where h is a simple fraction a pattern again.
   RoundedTerm flow_of(int k, const Expression& gradient, int section);
-  // The product of this text, and its error.
+  // The product of this text, its error, and what is left without it.
   NameInTerm name_of_product(const std::string& text, int section);
   std::string short_name(const std::string& text, const std::string& place);
   // What rounding took from dH/dz_k itself.

@@ -83,11 +83,8 @@ RoundedTerm StepBuilder::row_terms(int i, int k, const Expression& gradient, int
     factor = name_once("(" + to_text(factor) + ")", factor, kCoefficients);
   }
   const std::string text = short_name(to_text(factor) + "*" + of, name_of(i) + " " + of);
-  const auto names = [&](TermRole role, const Expression& value) {
-    if (role == TermRole::rest) return name_once("left(" + text + ")", value, section);
-    return name_of_product(text, section)(role, value);
-  };
-  const RoundedTerm term = rounded_share(names, factor, flow.large, own * flow.small, is_left);
+  const RoundedTerm term =
+      rounded_share(name_of_product(text, section), factor, flow.large, own * flow.small, is_left);
   return {sign * term.large, sign * term.small};
 }
 
@@ -95,7 +92,8 @@ NameInTerm StepBuilder::name_of_product(const std::string& text, int section) {
   return [this, text, section](TermRole role, const Expression& value) {
     if (role == TermRole::product)
       return name_once("part(" + text + ")", value, section, Lowering::Keep::apart);
-    return name_once("lost(" + text + ")", value, section);
+    const char* what = role == TermRole::rest ? "left(" : "lost(";
+    return name_once(what + text + ")", value, section);
   };
 }
 

@@ -129,6 +129,7 @@ TEST(OpenClHeader, HasItsOwnWordsInCodeOnly) {
             "static constant_; half_ half_h;  // half\n");
   EXPECT_THROW((void)in_words_of(opencl, "double half_;\n"), UsageError);
   EXPECT_NO_THROW((void)in_words_of(c_families()[0], "double half_;\n"));
+  EXPECT_EQ(in_words_of(opencl, "double x;  // half_\n"), "double x;  // half_\n");
 }
 
 // A model may have them all the same.
