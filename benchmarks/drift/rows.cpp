@@ -306,6 +306,9 @@ std::vector<Row> all_rows() {
   add(rows, round, "alpha = 3/10, fixed point", {.alpha = "3/10", .solver = "fixed-point"});
   for (const char* solver : {"fixed-point", "newton"})
     add(rows, round, fmt::format("gauss-4, {}", solver), {.scheme = "gauss-4", .solver = solver});
+  const Problem small{.name = "ring of 4, h = 0.3", .model = ring(4), .h = 0.3};
+  add_members(rows, small, 4);
+  for (const char* scheme : {"gauss-4", "gauss-8"}) add(rows, small, scheme, {.scheme = scheme});
   const Problem dense{.name = "all pairs of 30, loops, dense", .model = all_pairs(30)};
   add_members(rows, dense, 30);
   const Problem sparse{.name = "sheet of 256, loops, sparse", .model = sheet()};

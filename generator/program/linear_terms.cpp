@@ -52,25 +52,36 @@ bool LinearTerms::are_in(const Expression& e) const {
 }
 
 Expression LinearTerms::split(const Expression& e, const Definitions& definitions) const {
-  const auto split_term = [&](const Expression& term) { return split(term, definitions); };
+  std::vector<Expression> large;
+  std::vector<Expression> small;
+  const auto add = [&](const Expression& term) {
+    const Parts parts = split_term(term, definitions);
+    large.push_back(parts.high);
+    if (!parts.low.is_zero()) small.push_back(parts.low);
+  };
   if (e.kind() == Kind::sum && !is_sum(e)) {
-    std::vector<Expression> parts;
-    for (const Expression& term : e.operands()) parts.push_back(split_term(term));
-    return Expression::sum(std::move(parts));
+    std::ranges::for_each(e.operands(), add);
+  } else {
+    add(e);
   }
-  const Product found = product(e);
+  if (small.size() > 1) small = {definitions.of_small_parts(Expression::sum(std::move(small)))};
+  large.insert(large.end(), small.begin(), small.end());
+  return Expression::sum(std::move(large));
+}
+
+Parts LinearTerms::split_term(const Expression& term, const Definitions& definitions) const {
+  const Product found = product(term);
   if (!found.is_linear) {
-    return found.factor.kind() == Kind::sum ? found.constant * split_term(found.factor) : e;
+    if (found.factor.kind() != Kind::sum) return {term, Expression(0)};
+    return {found.constant * split(found.factor, definitions), Expression(0)};
   }
   const auto [number, symbol] = found.constant.split_coefficient();
-  const bool is_exact = is_power_of_two(Expression(number));
-  const Expression constant = is_exact ? symbol : found.constant;
-  if (is_power_of_two(constant)) return e;
+  const Expression factor{is_power_of_two(Expression(number)) ? number : Rational(1)};
+  const Expression constant = factor.is_one() ? found.constant : symbol;
+  if (is_power_of_two(constant)) return {term, Expression(0)};
   const Expression x = definitions.at_stage(found.factor);
   const auto [high, low] = definitions.in_two_parts(constant);
-  const Expression value = definitions.define(
-      "linear (" + to_text(constant) + ")*(" + to_text(x) + ")", high * x + low * x);
-  return is_exact ? Expression(number) * value : value;
+  return {factor * (high * x), factor * (low * x)};
 }
 
 bool LinearTerms::may_be_all_of(const Expression& e) const {

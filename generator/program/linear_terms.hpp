@@ -52,12 +52,12 @@ class LinearTerms {
   [[nodiscard]] Product product(const Expression& e) const;
   // Has it a term c x?
   [[nodiscard]] bool are_in(const Expression& e) const;
-  // e with each c x, of which products have errors, as a value of its own, defined by these: the
-  // two parts of c, and the value of this name, of x with c in two parts.
+  // e with both products of c x, c in two parts, where products with c have errors.  Those of the
+  // small parts are a sum of their own, which gets a name: see Note [the sum of the small parts].
   struct Definitions {
     std::function<Parts(const Expression& constant)> in_two_parts;
     std::function<Expression(const Expression& sum)> at_stage;
-    std::function<Expression(const std::string& name, const Expression& value)> define;
+    std::function<Expression(const Expression& sum)> of_small_parts;
   };
   [[nodiscard]] Expression split(const Expression& e, const Definitions& definitions) const;
   // Is it a sum of such terms and constants alone, or of others that a parameter may take away?
@@ -65,6 +65,7 @@ class LinearTerms {
 
  private:
   [[nodiscard]] bool is_constant(const Expression& e) const;
+  [[nodiscard]] Parts split_term(const Expression& term, const Definitions& definitions) const;
   std::set<std::string> state_;
 };
 

@@ -61,16 +61,16 @@ Evaluation evaluate_in_parts(const Mechanics& mechanics) {
     if (named.insert(name).second) lowering.define(name, value, 0, keep);
     return Expression::symbol(name, kRankOfTemporary);
   };
+  int sums = 0;
   const LinearTerms terms(std::move(state));
+  const LinearTerms::Definitions definitions{
+      .in_two_parts = [&](const Expression& c) { return in_two_parts(c, define); },
+      .at_stage = [](const Expression& sum) { return sum; },
+      .of_small_parts =
+          [&](const Expression& sum) { return define("rest " + std::to_string(++sums), sum); }};
   std::vector<std::size_t> handles;
-  for (const Expression& value : mechanics.gradient) {
-    handles.push_back(lowering.want(
-        terms.split(value,
-                    {.in_two_parts = [&](const Expression& c) { return in_two_parts(c, define); },
-                     .at_stage = [](const Expression& sum) { return sum; },
-                     .define = define}),
-        0));
-  }
+  for (const Expression& value : mechanics.gradient)
+    handles.push_back(lowering.want(terms.split(value, definitions), 0));
   lowering.run();
   Evaluation evaluation{.statements = lowering.statements(0)};
   for (const std::size_t handle : handles) evaluation.results.push_back(lowering.wanted(handle));

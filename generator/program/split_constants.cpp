@@ -29,7 +29,7 @@ std::vector<Statement> split_constants(std::vector<Kernel>& kernels, const Mecha
             return in_two_parts(constant, define);
           },
       .at_stage = [](const Expression& sum) { return sum; },
-      .define = [](const std::string&, const Expression& value) { return value; }};
+      .of_small_parts = [](const Expression& sum) { return sum; }};
   for (Kernel& kernel : kernels) {
     std::set<std::string> state;
     for (const Slot& slot : kernel.slots) state.insert(slot.symbol);

@@ -18,13 +18,15 @@ bool StepBuilder::has_linear_force() const {
   return false;
 }
 
-Expression StepBuilder::with_split_products(const Expression& e, int section) {
+Expression StepBuilder::gradient_in_parts(int k, int section) {
   return linear_terms_.split(
-      e,
+      equations_.stage_gradient(k),
       {.in_two_parts = [&](const Expression& constant) { return constant_in_two_parts(constant); },
        .at_stage = [&](const Expression& sum) { return at_stage(sum); },
-       .define = [&](const std::string& name,
-                     const Expression& value) { return name_once(name, value, section); }});
+       .of_small_parts =
+           [&](const Expression& sum) {
+             return named_rest(gradient_[index(k)].name(), sum, section);
+           }});
 }
 
 // Where the gradient may be no more than a sum of linear terms these may cancel.

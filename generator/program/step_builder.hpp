@@ -120,9 +120,15 @@ class StepBuilder {
   // pattern over those coarse numbers is a force or a velocity that knows the direction, and with
   // h omega from 1 on it drifts by up to 2e-3 units (soft chains in benchmarks/drift).  Of two
   // parts of the constant, of which neither is a simple fraction, the larger product is rounded
-  // without a pattern and the smaller one loses nothing: one operation and a sum more.  Sums of
-  // other terms have all digits; so only products with sums of stage values are split, and h times
-  // those, in steps whose forces have such terms at all.
+  // without a pattern and the smaller one loses nothing: one operation and a sum more.
+  // Sums of other terms have all digits; so only products with sums of stage values are split, and
+  // h times those, in steps whose forces have such terms at all.
+  //
+  // Note [the sum of the small parts]
+  // A product that has been rounded, of both parts, is near the grid of simple fractions again, off
+  // it by what its constant is.  A sum on a coarser grid loses that: a force that depends on how
+  // large the other terms are, which is no gradient, and drifts (a ring of 4 by gauss-4 by 2.4e-4
+  // units from one start).  So the larger products are added, and the sum of the smaller ones.
   //
   // The term of row i with dH/dz_k, and what rounding took from it.
   [[nodiscard]] RoundedTerm row_terms(int i, int k, const Expression& gradient, int section);
@@ -142,7 +148,7 @@ class StepBuilder {
   // See Note [constants in two parts].
   Parts constant_in_two_parts(const Expression& constant);
   [[nodiscard]] bool has_linear_force() const;
-  Expression with_split_products(const Expression& e, int section);
+  Expression gradient_in_parts(int k, int section);
   // h in two parts where this gradient asks for them, else as it is.
   Parts step_size_for(int k);
   void find_lost_of_gradient(int k, int section);

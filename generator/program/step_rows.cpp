@@ -145,8 +145,8 @@ Expression StepBuilder::constant(const Expression& factor) {
 Expression StepBuilder::value_of_gradient(int k, int section) {
   const std::optional<ConstantFactors> sum = constant_factors(k);
   if (!sum || sum->factors.size() != 1 || !sum->at_zero.is_zero()) {
-    const Expression& value = equations_.stage_gradient(k);
-    return at_stage(splits_products_ ? with_split_products(value, section) : value);
+    return at_stage(splits_products_ ? gradient_in_parts(k, section)
+                                     : equations_.stage_gradient(k));
   }
   const auto& [v, factor] = sum->factors.front();
   return constant(factor) * stage_value_[index(v)];

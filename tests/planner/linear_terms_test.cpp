@@ -13,17 +13,18 @@ const Expression k = Expression::symbol("k");
 const Expression a = Expression::symbol("a");
 const LinearTerms kTerms({"q", "r"});
 
-std::string split(const Expression& e) {
-  const Expression result = kTerms.split(
+const auto kHigh = [](const std::string& c) { return Expression::symbol("high(" + c + ")"); };
+const auto kLow = [](const std::string& c) { return Expression::symbol("low(" + c + ")"); };
+
+Expression split(const Expression& e) {
+  return kTerms.split(
       e, {.in_two_parts =
               [](const Expression& c) {
-                return Parts{Expression::symbol("high(" + to_text(c) + ")"),
-                             Expression::symbol("low(" + to_text(c) + ")")};
+                return Parts{kHigh(to_text(c)), kLow(to_text(c))};
               },
           .at_stage = [](const Expression& sum) { return sum; },
-          .define = [](const std::string& name,
-                       const Expression&) { return Expression::symbol("[" + name + "]"); }});
-  return to_text(result);
+          .of_small_parts =
+              [](const Expression& sum) { return Expression::symbol("[" + to_text(sum) + "]"); }});
 }
 
 TEST(LinearTerms, AreConstantsTimesSumsOfTheState) {
@@ -38,15 +39,26 @@ TEST(LinearTerms, AreConstantsTimesSumsOfTheState) {
 }
 
 TEST(LinearTerms, HaveTheirConstantInTwoPartsUnlessItIsAPowerOfTwo) {
-  EXPECT_EQ(split(k * (q - r)), "[linear (k)*(q - r)]");
-  EXPECT_EQ(split(Expression(2) * k * q), "2*[linear (k)*(q)]");
-  EXPECT_EQ(split(Expression(3) * k * q), "[linear (3*k)*(q)]");
-  EXPECT_EQ(split(Expression(Rational(13, 10)) * q), "[linear (13/10)*(q)]");
-  EXPECT_EQ(split(Expression(Rational(1, 3)) * q), "[linear (1/3)*(q)]");
-  EXPECT_EQ(split(Expression(Rational(1, 4)) * q), "q/4");
-  EXPECT_EQ(split(q - r), "q - r");
-  EXPECT_EQ(split(a * q * q + k * r), to_text(a * q * q + Expression::symbol("[linear (k)*(r)]")));
-  EXPECT_EQ(split(a * Expression::apply("sin", {q})), "a*sin(q)");
+  const auto in_parts = [](const char* c, const Expression& x) {
+    return kHigh(c) * x + kLow(c) * x;
+  };
+  EXPECT_EQ(split(k * (q - r)), in_parts("k", q - r));
+  EXPECT_EQ(split(Expression(2) * k * q), Expression(2) * in_parts("k", q));
+  EXPECT_EQ(split(Expression(3) * k * q), in_parts("3*k", q));
+  EXPECT_EQ(split(Expression(Rational(13, 10)) * q), in_parts("13/10", q));
+  EXPECT_EQ(split(Expression(Rational(1, 3)) * q), in_parts("1/3", q));
+  EXPECT_EQ(split(Expression(Rational(1, 4)) * q), q / Expression(4));
+  EXPECT_EQ(split(q - r), q - r);
+  EXPECT_EQ(split(a * q * q + k * r), a * q * q + in_parts("k", r));
+  EXPECT_EQ(split(a * Expression::apply("sin", {q})), a * Expression::apply("sin", {q}));
+}
+
+// The products of the small parts are added to each other before they meet the others.
+TEST(LinearTerms, HaveASumOfTheirSmallParts) {
+  const Expression low = Expression(2) * kLow("k") * q - kLow("a") * (q - r);
+  EXPECT_EQ(split(Expression(2) * k * q - a * (q - r) + q * q),
+            Expression(2) * kHigh("k") * q - kHigh("a") * (q - r) + q * q +
+                Expression::symbol("[" + to_text(low) + "]"));
 }
 
 // Their sum may cancel, and what is left has few digits.

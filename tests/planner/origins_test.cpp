@@ -86,8 +86,7 @@ step size             |  #3 <- -h/2
 step size             |  #4 <- low(h)/2
 derivatives(par, k, &at):
 iteration             |  bar(q) = at.point[0]
-iteration H 2 3       |  linear (w^2)*(bar(q)) = bar(q)*high(w^2) + bar(q)*low(w^2)
-iteration H 2 3       |  H(q) = linear (w^2)*(bar(q)) + c*sin(bar(q))
+iteration H 2 3       |  H(q) = c*sin(bar(q)) + bar(q)*high(w^2) + bar(q)*low(w^2)
 iteration H 2 3       |  H(q,q) = #0 + c*cos(bar(q))
 iteration H 2 3       |  at.H_q <- H(q)
 iteration H 2 3       |  at.H_q_q <- H(q,q)
