@@ -4,6 +4,19 @@
 
 namespace hamgen {
 
+namespace {
+
+// Of two parts each has its line, if they are too long for one.
+void write_cost(CodeWriter& out, const std::string& cost) {
+  const std::string lead = "//   cost      ";
+  const std::size_t end = cost.find("; ");
+  if (out.fits(lead + cost) || end == std::string::npos) return out.comment(lead, cost);
+  out.comment(lead, cost.substr(0, end + 1));
+  out.comment("//             ", cost.substr(end + 2));
+}
+
+}  // namespace
+
 void write_preamble(CodeWriter& out, const EmitContext& context) {
   const StepFacts& facts = context.program.facts;
   out.remark("// ", fmt::format("{}, {}.  Generated: change the model, not this file.",
@@ -16,7 +29,7 @@ void write_preamble(CodeWriter& out, const EmitContext& context) {
   if (!options.model_path.empty()) out.remark("//   model     ", options.model_path);
   if (!options.model_digest.empty()) out.remark("//   sha256    ", options.model_digest);
   out.comment(facts.has_time ? "//   H(q, p, t) = " : "//   H(q, p) = ", facts.hamiltonian);
-  out.remark("//   scheme    ", facts.properties);
+  out.comment("//   scheme    ", facts.properties);
   out.comment("//   step      ", facts.equations);
   if (!options.proved.empty()) out.comment("//   proved    ", options.proved);
   if (!options.tested.empty()) out.comment("//   tested    ", options.tested);
@@ -32,7 +45,7 @@ void write_preamble(CodeWriter& out, const EmitContext& context) {
     out.comment(first ? "//   left out  " : "//             ", item);
     first = false;
   }
-  out.line("//   cost      " + facts.cost);
+  write_cost(out, facts.cost);
   out.line("//   flags     measured with -O3 -march=native -ffp-contract=off -fno-math-errno");
 }
 

@@ -144,12 +144,19 @@ struct Refinement {
     return more;
   }
   // Of unknowns that a round still moves by more than a 32nd of a unit, when no more is to be had,
-  // and by a part of what the first one did that rounding does not leave.
+  // and by a part of what the first one did that rounding does not leave.  Where the amplifier is
+  // small, in float, differences leave more than that of the largest unknown: one that is near zero
+  // for a moment is not told from what does not converge, and steps that were solved failed.
   Real far_off(const Real* lack) const {
+    Real noise = 0;
+    for (int j = 0; j < Size && amplifier < 4096; ++j) {
+      const Real left = 8 * epsilon * magnitude(at[j]) / amplifier;
+      noise = left > noise ? left : noise;
+    }
     return sum_of<Size>([&](int j) {
       const Real error = magnitude(missing[j] + (lack[j] - missing[j]) / amplifier);
       const bool moves = error * 32 > epsilon * magnitude(at[j]) && error * 1024 > begun;
-      return moves ? error : Real(0);
+      return moves && error > noise ? error : Real(0);
     });
   }
 };

@@ -14,8 +14,8 @@ class LanePropagatorBuilder : public PropagatorParts {
   Propagator build() {
     Propagator result = shell();
     result.remark = {
-        "Trajectories side by side, each as if it were alone.  A lane whose step fails stays for "
-        "good where it was before it, and the others go on."};
+        "Trajectories side by side, each as if it were alone.  A lane whose step fails stays where",
+        "it was before it, for good, and the others go on."};
     result.constants.insert(result.constants.begin(), {"lanes", lanes_});
     const auto h = std::ranges::find(result.accessors, "time", &Accessor::name);
     if (!h->place) h->remark = {"Since the first state, of each lane."};

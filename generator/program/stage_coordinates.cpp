@@ -53,8 +53,8 @@ Routine StageCoordinates::begin() const {
 
 Routine StageCoordinates::evaluate() const {
   RoutineBuilder b({.name = "evaluate_coordinates",
-                    .remark = {"L_i of the momenta, and what the coordinates lack of their "
-                               "equations when the momenta are eliminated."},
+                    .remark = {"L_i of the momenta, and what the coordinates lack once the momenta "
+                               "are eliminated."},
                     .arguments = with_start(false)});
   b.body().push_back(
       {Call{.routine = "forces", .arguments = {{"par"}, {"start", "value"}, {"start", "slope"}}}});

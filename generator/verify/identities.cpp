@@ -6,6 +6,7 @@
 #include <span>
 
 #include "generator/algebra/from_ginac.hpp"
+#include "generator/verify/affine.hpp"
 #include "generator/verify/numerator.hpp"
 #include "generator/verify/precise.hpp"
 #include "generator/verify/sums_of_step.hpp"
@@ -17,6 +18,12 @@ namespace {
 // Sizes as trees up to which differences are expanded, and brought over one denominator.
 constexpr std::size_t kExpandable = 6000;
 constexpr std::size_t kNormalisable = 2000;
+// Or of so many different parts, where so few symbols have few terms.
+constexpr std::size_t kFewSymbols = 4;
+// What is larger is looked at once for each symbol in which it is affine, if there are no more of
+// these, and no more different parts in it.
+constexpr std::size_t kMostAffine = 24;
+constexpr std::size_t kMostParts = 200;
 constexpr int kPoints = 200;
 // The first points only refute: most mistakes show at once.
 constexpr int kFirstPoints = 3;
@@ -314,6 +321,34 @@ class Decider {
 
 }  // namespace
 
+namespace {
+
+// Is it short enough to be brought over one denominator, and zero then?
+bool has_no_numerator(const Expression& e) {
+  std::map<const void*, std::size_t> known;
+  const std::size_t size = tree_size(e, known);
+  const bool is_short =
+      size <= kNormalisable || (known.size() <= kNormalisable && symbols(e).size() <= kFewSymbols);
+  if (!is_short) return false;
+  SymbolTable table;
+  SquareRoots roots;
+  const Expression rational = roots.replace(e);
+  try {
+    return vanishes_with_roots(numerator(to_ginac(rational, table)), roots, table);
+  } catch (const std::exception&) {  // a denominator that vanishes identically, or too many terms
+    return false;
+  }
+}
+
+// What is affine in the state is much shorter at each of these points.
+bool vanishes_at_unit_points(const Expression& e) {
+  const std::vector<std::string> affine = affine_symbols(e);
+  return !affine.empty() && affine.size() <= kMostAffine &&
+         std::ranges::all_of(at_unit_points(e, affine), has_no_numerator);
+}
+
+}  // namespace
+
 bool is_zero_by_algebra(const Expression& e) {
   if (e.is_zero()) return true;
   if (e.is_number()) return false;
@@ -322,19 +357,12 @@ bool is_zero_by_algebra(const Expression& e) {
   SumsOfStep sums;
   const Expression shorter = sums.named(e);
   if (!sums.empty() && is_zero_by_algebra(shorter)) return true;
-  if (size > kExpandable) return false;
   if (differs_from_zero(e)) return false;
-  SymbolTable table;
   const Expression plain = without_ranks(e);
-  if (to_ginac(plain, table).expand().is_zero()) return true;
-  if (size > kNormalisable) return false;
-  SquareRoots roots;
-  const Expression rational = roots.replace(plain);
-  try {
-    return vanishes_with_roots(numerator(to_ginac(rational, table)), roots, table);
-  } catch (const std::exception&) {  // a denominator that vanishes identically, or too many terms
-    return false;
-  }
+  SymbolTable table;
+  if (size <= kExpandable && to_ginac(plain, table).expand().is_zero()) return true;
+  if (size <= kNormalisable) return has_no_numerator(plain);
+  return known.size() <= kMostParts && vanishes_at_unit_points(plain);
 }
 
 Decision decide(const Identities& identities, const Surroundings& around) {

@@ -57,7 +57,15 @@ std::size_t terms_of(const GiNaC::ex& sum) { return GiNaC::is_a<GiNaC::add>(sum)
 
 class Fractions {
  public:
+  // What stands in an expression many times is looked at once.
   Fraction fraction(const GiNaC::ex& e) {
+    if (e.nops() == 0) return {.numerator = e};
+    if (const auto it = known_.find(e); it != known_.end()) return it->second;
+    return known_.emplace(e, of_operands(e)).first->second;
+  }
+
+ private:
+  Fraction of_operands(const GiNaC::ex& e) {
     if (GiNaC::is_a<GiNaC::add>(e)) return sum(e);
     if (GiNaC::is_a<GiNaC::mul>(e)) {
       Fraction result;
@@ -79,11 +87,9 @@ class Fractions {
       divide(result, GiNaC::pow(e.op(0), -e.op(1)).map(normal), 1);
       return result;
     }
-    if (e.nops() == 0) return {.numerator = e};
     return {.numerator = e.map(normal)};
   }
 
- private:
   static GiNaC::ex normal(const GiNaC::ex& e) { return e.normal(); }
 
   GiNaC::ex product(const GiNaC::ex& a, const GiNaC::ex& b) {
@@ -172,6 +178,7 @@ class Fractions {
   }
 
   std::size_t terms_ = 0;
+  std::map<GiNaC::ex, Fraction, GiNaC::ex_is_less> known_;
 };
 
 }  // namespace
