@@ -38,6 +38,15 @@ void require_set_once(const SceneRequest& scene, const std::vector<std::string>&
   }
 }
 
+void require_not_folded(const std::vector<std::string>& folded,
+                        const std::vector<std::string>& varied) {
+  for (const std::string& name : varied) {
+    if (std::ranges::find(folded, name.substr(0, name.find('['))) != folded.end())
+      throw UsageError(fmt::format(
+          "--fold {0}: it is varied, and cannot be burnt in\nhelp: leave out --fold", name));
+  }
+}
+
 AxisOption read_axis_option(const std::string& text, const std::set<std::string>& names, long least,
                             long most) {
   const std::string help = "\nhelp: for example --over q2=-0.5:0.7:50";

@@ -25,6 +25,10 @@ void require_varied(const std::string& option, const std::string& text, const st
 // Throws UsageError if --set or --initial gives one of these a value, too.
 void require_set_once(const SceneRequest& scene, const std::vector<std::string>& varied);
 
+// Throws UsageError if --fold burns one of these in.
+void require_not_folded(const std::vector<std::string>& folded,
+                        const std::vector<std::string>& varied);
+
 // Throws UsageError; the count is within [least, most].
 [[nodiscard]] AxisOption read_axis_option(const std::string& text,
                                           const std::set<std::string>& names, long least,

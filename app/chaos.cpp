@@ -223,6 +223,7 @@ int run_chaos(const ChaosOptions& options) {
   std::vector<std::string> varied;
   for (const ChaosAxis& axis : axes) varied.push_back(axis.name);
   require_set_once(setting.scene, varied);
+  require_not_folded(listed("--fold", options.method.fold), varied);
   if (axes.size() > 2) throw UsageError("--over: two axes at most");
   if (axes.size() == 2 && axes[0].name == axes[1].name)
     throw UsageError(fmt::format("--over: both axes are {}", axes[0].name));

@@ -41,6 +41,8 @@ void prepare(const EnsembleOptions& options, Prepared& prepared) {
   setting = read_setting(options.method, options.scene);
   request.plan = read_plan(options, setting.model);
   require_set_once(setting.scene, request.plan.names());
+  require_apart("-o", options.output, options.method.model, "the model");
+  require_apart("-o", options.output, request.plan.table.path, "the table of --from");
   if (!options.every.empty() && options.statistics.empty())
     throw UsageError(fmt::format(
         "--every {}: statistics are taken over these states, and none are asked for\nhelp: for "

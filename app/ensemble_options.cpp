@@ -46,11 +46,7 @@ void require_known(const EnsemblePlan& plan, const std::vector<std::string>& fol
   for (const std::string& name : plan.table.names)
     require_varied("--from", plan.table.path + ", column " + name, name, names);
   std::vector<std::string> all = plan.names();
-  for (const std::string& name : all) {
-    if (std::ranges::find(folded, name.substr(0, name.find('['))) != folded.end())
-      throw UsageError(fmt::format(
-          "--fold {0}: it is varied, and cannot be burnt in\nhelp: leave out --fold", name));
-  }
+  require_not_folded(folded, all);
   std::ranges::sort(all);
   if (const auto twice = std::ranges::adjacent_find(all); twice != all.end())
     throw UsageError(fmt::format("{} is given its values twice", *twice));

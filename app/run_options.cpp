@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/output/output_name.hpp"
 #include "app/output/trajectory_plot.hpp"
 #include "generator/base/diagnostic.hpp"
 
@@ -59,10 +60,13 @@ void require_run_files(const RunOptions& options) {
     throw UsageError(
         "--json and -o - both write to standard output\nhelp: give the trajectory a file: -o "
         "FILE.csv");
-  std::error_code missing;
-  if (std::filesystem::equivalent(options.output, options.method.model, missing))
-    throw UsageError(fmt::format("-o {}: that is the model; give the trajectory a file of its own",
-                                 options.output));
+  require_apart("-o", options.output, options.method.model, "the model");
+  require_apart("--plot", options.plot, options.method.model, "the model");
+  for (const auto& [option, file] : {std::pair("--checkpoint", &options.checkpoint.checkpoint),
+                                     {"--resume", &options.checkpoint.resume}}) {
+    require_apart(option, *file, options.method.model, "the model");
+    require_apart(option, *file, options.output, "the trajectory of -o");
+  }
   std::filesystem::path path = options.output;
   const bool is_picture = path.extension() == ".svg" || path.extension() == ".png";
   if (path.has_extension() && path.extension() != ".csv")

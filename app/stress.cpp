@@ -100,6 +100,7 @@ int run_stress(const StressOptions& options) {
   std::vector<std::string> varied;
   for (const StressAxis& axis : request.axes) varied.push_back(axis.label);
   require_set_once(request.setting.scene, varied);
+  require_not_folded(listed("--fold", options.method.fold), varied);
   const SceneValues values = complete_scene(request.setting.model, request.setting.scene);
   if (*values.steps == 0) throw UsageError(fmt::format("--time {}: less than a step", *scene.time));
   request.limits = read_limits(options, *values.steps);

@@ -14,6 +14,7 @@
 #include "app/output/certificate_json.hpp"
 #include "app/output/json_document.hpp"
 #include "app/output/modified_output.hpp"
+#include "app/output/output_name.hpp"
 #include "app/output/patience.hpp"
 #include "app/output/terminal.hpp"
 #include "app/studies/initial_data.hpp"
@@ -199,6 +200,8 @@ int verify(const VerifyOptions& options) {
     throw UsageError(
         "--certificate: it has the digest of a header\nhelp: write one with `hamgen generate -o "
         "DIRECTORY`, and add --emitted FILE");
+  require_apart("--certificate", options.certificate, options.method.model, "the model");
+  require_apart("--certificate", options.certificate, options.emitted, "the header of --emitted");
   Setting setting = verify_setting(options);
   const std::optional<EmittedHeader> header = read_header(options.emitted, setting.request);
   const SceneValues scene = scene_values(setting.model, setting.scene);

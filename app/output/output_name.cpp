@@ -80,6 +80,20 @@ void require_writable(std::initializer_list<std::string> names) {
   }
 }
 
+void require_apart(const std::string& option, const std::string& name, const std::string& other,
+                   const std::string& what) {
+  if (name.empty() || other.empty() || name == "-" || other == "-") return;
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  const bool is_same =
+      fs::equivalent(name, other, failed) ||
+      fs::weakly_canonical(fs::absolute(name), failed) ==
+          fs::weakly_canonical(fs::absolute(other), failed);
+  if (is_same)
+    throw UsageError(fmt::format("{} {}: that is {}\nhelp: give it a file of its own", option, name,
+                                 what));
+}
+
 void require_file(const std::string& option, const std::string& name) {
   if (name.empty() || name == "-") return;
   const std::filesystem::path path = name;

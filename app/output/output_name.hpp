@@ -22,6 +22,9 @@ void make_directories_above(std::initializer_list<std::string> names, bool quiet
 // Throws ToolError where a file of one of these names could not be written: before something takes
 // long for it.  Directories and standard output are left out.
 void require_writable(std::initializer_list<std::string> names);
+// Throws UsageError where what is written would take the place of another file: `what` it is.
+void require_apart(const std::string& option, const std::string& name, const std::string& other,
+                   const std::string& what);
 // Of a command that writes one file by this option: throws UsageError for the name of a directory,
 // ToolError where it could not be written.
 void require_file(const std::string& option, const std::string& name);

@@ -110,6 +110,12 @@ bool is_quad_function(std::string_view name) {
   return std::ranges::find(all_functions(), name, &Function::quad) != all_functions().end();
 }
 
+// A function by the name that C calls it by: a variable cos_ would become a local that hides it.
+bool is_function_of_c(std::string_view name) {
+  return name == "fabs" || name == "fma" ||
+         std::ranges::find(all_functions(), name, &Function::cpp) != all_functions().end();
+}
+
 bool is_reserved(std::string_view name) {
   return is_keyword(name) || is_numbered(name) || is_quad_function(name) ||
          std::ranges::find(kOurs, name) != std::end(kOurs);
@@ -177,7 +183,7 @@ std::string Names::unique(const std::string& wanted) {
   std::string stem = base.ends_with('_') ? base : base + "_";
   if (is_numbered(stem + "2")) stem += "value_";  // else each of them is reserved
   std::string text = base;
-  for (int i = 2; taken_.contains(text) || is_reserved(text); ++i)
+  for (int i = 2; taken_.contains(text) || is_reserved(text) || is_function_of_c(text); ++i)
     text = fmt::format("{}{}", stem, i);
   taken_.insert(text);
   return text;

@@ -51,7 +51,7 @@ Routine tangent_routine(const Environment& environment, std::string name,
   const AffineIndex column{0, {{"column", 1}}};
   Body each;
   each.push_back({Array{"u", {size}}});
-  each.push_back({Assign{bind("u(column)", {"u", "", {column}}), Expression(1)}});
+  each.push_back({Assign{bind("u of column", {"u", "", {column}}), Expression(1)}});
   for (std::size_t s = 0; s < linearisation.stages.size(); ++s) {
     const Linearisation::Stage& stage = linearisation.stages[s];
     append(each, stage.before);
