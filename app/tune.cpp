@@ -163,14 +163,14 @@ int run_tune(const TuneOptions& options) {
   require_writable({options.map});
   Tuner tuner(request);
   const TuneReport report = tuner.run();
-  if (!report.orbit_failure.empty())
-    print_error(
-        fmt::format("hamgen: the orbit cannot be followed: {}\nhelp: try a shorter --time\n",
-                    report.orbit_failure));
   if (interrupt_flag()) {
     print_error("hamgen: stopped; no gauge was found\n");
     return interrupted;
   }
+  if (!report.orbit_failure.empty())
+    print_error(
+        fmt::format("hamgen: the orbit cannot be followed: {}\nhelp: try a shorter --time\n",
+                    report.orbit_failure));
   if (!report.orbit_failure.empty()) return numerical_failure;
   print(options.json ? tune_json(report) : tune_text(report));
   if (!options.map.empty()) {

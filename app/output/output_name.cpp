@@ -86,12 +86,11 @@ void require_apart(const std::string& option, const std::string& name, const std
   namespace fs = std::filesystem;
   std::error_code failed;
   const bool is_same =
-      fs::equivalent(name, other, failed) ||
-      fs::weakly_canonical(fs::absolute(name), failed) ==
-          fs::weakly_canonical(fs::absolute(other), failed);
+      fs::equivalent(name, other, failed) || fs::weakly_canonical(fs::absolute(name), failed) ==
+                                                 fs::weakly_canonical(fs::absolute(other), failed);
   if (is_same)
-    throw UsageError(fmt::format("{} {}: that is {}\nhelp: give it a file of its own", option, name,
-                                 what));
+    throw UsageError(
+        fmt::format("{} {}: that is {}\nhelp: give it a file of its own", option, name, what));
 }
 
 void require_file(const std::string& option, const std::string& name) {

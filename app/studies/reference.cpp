@@ -147,12 +147,17 @@ ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::In
   return reference;
 }
 
-// With what it is of, for the list of the cache.
+// With what it is of, for the list of the cache.  Where that has no room, which was said when the
+// plugin was compiled, the reference is computed again next time.
 void keep(const runtime::Cache& cache, const std::string& key, const std::string& text,
           const PluginSource& plugin) {
-  runtime::publish_text(cache, key, text);
-  runtime::publish_record(cache, key,
-                          {.model = plugin.model.name, .scheme = plugin.scheme_name, .made = {}});
+  try {
+    runtime::publish_text(cache, key, text);
+    runtime::publish_record(cache, key,
+                            {.model = plugin.model.name, .scheme = plugin.scheme_name, .made = {}});
+  } catch (const runtime::ToolError&) {
+    return;
+  }
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ TuneReport Tuner::run() {
   follow_orbit();
   if (!report_.orbit_failure.empty()) return report_;
   compute_reference();
+  if (is_stopped(request_.stop)) return report_;
   const runtime::Flattening flat = fit_gauge(orbit_, request_.shape);
   report_.rank = flat.rank;
   add("implicit midpoint", std::vector<double>(request_.shape.size(), 0.0));

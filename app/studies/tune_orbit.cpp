@@ -85,6 +85,10 @@ Orbit sample_orbit(const SourceText& source, const SceneValues& scene,
   options.stop = request.stop;
   const runtime::Wide distance = wide(request.time / request.samples);
   for (long i = 0; i < request.samples; ++i) {
+    if (is_stopped(request.stop)) {
+      orbit.failure = "it was stopped";
+      return orbit;
+    }
     orbit.points.push_back(point_at(*library, parameters, rounded(at.state)));
     const runtime::Extrapolation next = runtime::extrapolate(library, at, distance, options);
     if (!next.failure.empty()) {

@@ -52,6 +52,53 @@ TEST(EarlyRefusal, OfADirectoryWhereAFileIsWanted) {
   EXPECT_NE(plot.err.find("it is a directory"), std::string::npos) << plot.err;
 }
 
+// What a command reads is not what it writes.
+TEST(EarlyRefusal, OfWritingOverWhatIsRead) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  const std::string starts = scratch.write("starts.csv", "q1,q2\n0.1,0\n");
+  const std::string rows = scratch.path("rows.csv");
+  ASSERT_EQ(hamgen({"generate", model, "-o", scratch.path("m.hpp"), "--quiet"}).status, 0);
+  const std::string header = scratch.path("m.hpp");
+  const std::string text = read(header);
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"run", model, "-o", rows, "--checkpoint", rows},
+           {"run", model, "-o", rows, "--resume", rows},
+           {"run", model, "--checkpoint", model},
+           {"ensemble", model, "--from", starts, "-o", starts},
+           {"verify", model, "--emitted", header, "--certificate", model},
+           {"verify", model, "--emitted", header, "--certificate", header}}) {
+    const Result result = hamgen(words);
+    EXPECT_EQ(result.status, 2) << words[0] << " " << words.back();
+    EXPECT_NE(result.err.find("give it a file of its own"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(read(model), kModel);
+  EXPECT_EQ(read(starts), "q1,q2\n0.1,0\n");
+  EXPECT_EQ(read(header), text);
+}
+
+// A number that is in the code follows nobody.
+TEST(EarlyRefusal, OfAFoldedParameterThatIsAnother) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("m.ham",
+                    "coordinate q\nmomentum p\nparameter k = 1\nH = p^2/2 + k*q^2/2\n"
+                    "scene s { q = 1; k = 2; h = 0.1; steps = 5 }\n");
+  const std::string table = scratch.path("x.csv");
+  for (const auto& [words, part] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"chaos", model, "--over", "k=0:10:3", "-o", table}, "is varied"},
+           {{"stress", model, "--vary", "k=1:2:2", "-o", table}, "is varied"},
+           {{"run", model}, "is burnt in"},
+           {{"verify", model, "--scene", "s"}, "is burnt in"},
+           {{"generate", model, "--scene", "s", "-o", scratch.path("h")}, "is burnt in"}}) {
+    std::vector<std::string> folded = words;
+    folded.insert(folded.end(), {"--fold", "k"});
+    const Result result = hamgen(folded);
+    EXPECT_EQ(result.status, 2) << words[0];
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+  }
+}
+
 // A check leaves nothing behind, not even an empty file.
 TEST(EarlyRefusal, LeavesNoFileOfOneThatCouldBeWritten) {
   const Scratch scratch;

@@ -33,6 +33,18 @@ TEST(Interpret, TakesTheSameStepsWithoutACompiler) {
   }
 }
 
+// An unknown that is near zero for a moment is not told from what does not converge, if nothing
+// knows what differences leave in so few digits.
+TEST(Interpret, ASolvedStepOfFloatsIsNoFailure) {
+  const Scratch scratch;
+  const std::string model = scratch.write(
+      "quartic.ham",
+      "coordinate q\nmomentum p\nH = p^2/2 + q^2/2 + q^4/4\nscene s { q = 1; h = 0.1 }\n");
+  const Result result = hamgen({"run", model, "--scheme", "gauss-4", "--solver", "newton",
+                                "--scalar", "float", "--interpret", "--steps", "2000"});
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
 TEST(Interpret, IsProposedWhereThereIsNoCompiler) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);

@@ -24,7 +24,7 @@ const std::vector<std::string> hostile = {
     "hamgen_run", "create",   "state",      "steps",        "known",     "magnitude", "unknowns",
     "advance",    "lambda",   "gamma",      "beta",         "alpha",     "float128",  "EOF",
     "y0",         "j1",       "predicted",  "best",         "value",     "increment", "rule_0",
-    "d_p_d_q",    "entry_1",  "put",        "drift_"};
+    "d_p_d_q",    "entry_1",  "put",        "drift_",       "cos_",      "column"};
 
 // A model that the language accepts, or nothing if it refuses the name.
 std::string header(const std::string& text, const Request& request, const std::string& space) {

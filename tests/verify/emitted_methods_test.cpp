@@ -195,10 +195,14 @@ std::vector<Case> tangent_cases() {
   const std::string ring =
       "size N = 5\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
       "H = sum(i = 1..N, p[i]^2/2 + (q[i+1] - q[i])^4/4 + q[i]^2/2)\n";
+  // The index of the columns is no name of the model's.
+  const std::string column =
+      "coordinate q\nmomentum column\nH = column^2/2 + cos(q) + sin(q)*column/3\n";
   return {{"symplectic-euler-a", kPendulum}, {"implicit-midpoint", kPendulum},
           {"implicit-midpoint", kProduct},   {"implicit-midpoint", kKepler},
           {"implicit-midpoint", ring},       {"symplectic-euler-b", kProduct},
-          {"yoshida-4", kHenonHeiles},       {"order 3, general member", kHenonHeiles, 3}};
+          {"yoshida-4", kHenonHeiles},       {"order 3, general member", kHenonHeiles, 3},
+          {"implicit-midpoint", column}};
 }
 
 TEST(EmittedTangent, IsTheMathematicsAndEveryMutationIsRefuted) {
