@@ -308,7 +308,6 @@ Request request_of(const MethodOptions& options, const SceneOptions& scene,
 void specialise(const SceneOptions& options, const SceneValues& values,
                 const std::vector<std::string>& varied, Observing observing, Setting& setting) {
   const Model& model = setting.model;
-  require_folded_defaults(model, values);
   std::set<std::string> known;
   for (const auto& names : {element_names(model.coordinates), element_names(model.momenta),
                             element_names(model.parameters)}) {

@@ -5,6 +5,7 @@
 //   model     hamiltonians/kepler.ham
 //   sha256    7274355e6771529febcf6c1d9ce184fa3ab1b756eb8d31c58ffb9e707199c4e2
 //   H(q, p) = (p1^2 + p2^2)/2 - 1/r
+//   r = sqrt(q1^2 + q2^2)
 //   scheme    alpha = 1/2, beta = 0, gamma = 0: order 2, symmetric, symplectic
 //   step      Q = q + h dH/dp, P = p - h dH/dq at qbar = (q + Q)/2, pbar = (p + P)/2
 //   proved    symplectic, symmetric, order 2, conserves L, emitted code

@@ -19,15 +19,17 @@ namespace {
 // What the front end has read; a scene's own values are put in later, and proved by "specialised".
 Finding prove_front_end(const Stages& stages, const Surroundings& around) {
   const Mechanics& mechanics = stages.system.given;
-  DerivedFormulas derived{.hamiltonian = written_out_hamiltonian(stages.model)};
   const bool folded = !stages.folded.folding.left_out.empty();
+  Model model = stages.model;
+  for (Parameter& parameter : model.parameters) parameter.folded = parameter.folded && !folded;
+  DerivedFormulas derived{.hamiltonian = written_out_hamiltonian(model)};
   if (!folded && !mechanics.keeps_sums()) {
     derived.gradient = mechanics.gradient;
     derived.invariants = mechanics.invariants;
   } else if (!folded && mechanics.degrees_of_freedom <= kMostLookedAt) {
     derived.gradient = Derivatives(mechanics, derived.hamiltonian).gradient();
   }
-  return prove_model_read(stages.model, mechanics, derived, around);
+  return prove_model_read(model, mechanics, derived, around);
 }
 
 // With fewer elements, of which every formula is what it is in the large system.

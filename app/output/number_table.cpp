@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <string_view>
@@ -41,7 +43,7 @@ class TableReader {
       : path_(path.string()), in_(path, std::ios::binary) {
     if (std::filesystem::is_directory(path))
       throw UsageError(fmt::format("cannot read '{}': it is a directory", path_));
-    if (!in_) throw UsageError(fmt::format("cannot read '{}'", path_));
+    if (!in_) throw UsageError(fmt::format("cannot read '{}': {}", path_, std::strerror(errno)));
   }
 
   NumberTable run() {
@@ -54,6 +56,7 @@ class TableReader {
         fail("the last line has no end: the file is cut off",
              "draw it without that line: head -n -1 FILE > OTHER");
       if (!line.empty() && line.back() == '\r') line.pop_back();
+      if (number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // a byte order mark
       is_made = is_made || line.starts_with("# made by   hamgen");
       is_ours = is_ours || (is_made && line.starts_with("step,t"));
       table_.is_whole = !is_ours || line.starts_with(status);

@@ -312,8 +312,9 @@ std::string failure_text(const RunReport& report) {
 
 std::string outcome_text(const RunReport& report) {
   const std::string failure = failure_text(report);
-  return fmt::format("status    {}{}{}", runtime::to_text(report.summary.status),
-                     failure.empty() ? "" : ": ", failure);
+  const std::string status(runtime::to_text(report.summary.status));
+  if (failure.starts_with(status)) return "status    " + failure;
+  return fmt::format("status    {}{}{}", status, failure.empty() ? "" : ": ", failure);
 }
 
 std::string summary_text(const RunReport& report) {

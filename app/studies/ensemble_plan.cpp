@@ -109,7 +109,9 @@ EnsembleTable read_ensemble_table(const std::string& path) {
   const std::string text = runtime::read_file(path);
   EnsembleTable table{.path = path, .digest = runtime::sha256_hex(text), .names = {}, .values = {}};
   std::size_t line_number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  while (begin < text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line = without_blanks(std::string_view(text).substr(begin, end - begin));
     begin = end + 1;

@@ -23,6 +23,9 @@ Rational value_at_start(const StateMap::Sum& sum, const SceneValues& scene) {
   return total;
 }
 
+namespace {
+
+// A folded parameter has the model's default in the code, whatever the scene or --set says.
 void require_folded_defaults(const Model& model, const SceneValues& scene) {
   Model without_scenes = model;
   without_scenes.scenes.clear();
@@ -41,8 +44,6 @@ void require_folded_defaults(const Model& model, const SceneValues& scene) {
     first = end;
   }
 }
-
-namespace {
 
 // Near a pole of C an error is multiplied by 1/(h w - 2 pi k): by 100 at most, then.
 void require_regular_step(const PluginSource& plugin, const Rational& step) {

@@ -20,9 +20,6 @@ namespace hamgen::app {
 [[nodiscard]] SceneValues complete_scene(const Model& model, const SceneRequest& request,
                                          const char* length = "--steps 1000");
 
-// A folded parameter has the model's default in the code: throws UsageError if the scene or --set
-// says another value.
-void require_folded_defaults(const Model& model, const SceneValues& scene);
 // Throws UsageError, naming it, if one of the scene's values has no number of the scalar: a step
 // size that becomes 0 would run, and go nowhere.
 void require_in_range(const Model& model, const SceneValues& scene, const ScalarType& scalar);

@@ -29,7 +29,8 @@ void write_preamble(CodeWriter& out, const EmitContext& context) {
   if (!options.model_path.empty()) out.remark("//   model     ", options.model_path);
   if (!options.model_digest.empty()) out.remark("//   sha256    ", options.model_digest);
   out.comment(facts.has_time ? "//   H(q, p, t) = " : "//   H(q, p) = ", facts.hamiltonian);
-  out.comment("//   scheme    ", facts.properties);
+  for (const auto& [name, text] : facts.definitions) out.comment("//   " + name + " = ", text);
+  out.remark("//   scheme    ", facts.properties);
   out.comment("//   step      ", facts.equations);
   if (!options.proved.empty()) out.comment("//   proved    ", options.proved);
   if (!options.tested.empty()) out.comment("//   tested    ", options.tested);

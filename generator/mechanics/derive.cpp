@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
+#include <set>
 
 #include "generator/algebra/ginac_derivatives.hpp"
 #include "generator/algebra/ginac_parts.hpp"
 #include "generator/base/budget.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/language/check_names.hpp"
 #include "generator/language/scene.hpp"
 #include "generator/mechanics/derive_kernels.hpp"
 #include "generator/mechanics/energy_terms.hpp"
@@ -118,10 +121,24 @@ void differentiate(const GiNaC::ex& energy, const std::map<std::string, int>& pl
   }
 }
 
+// What H names, and what that does, in the order of the file.
+std::vector<std::pair<std::string, std::string>> definitions_of(const Model& model) {
+  std::set<std::string> used = names_in(model.hamiltonian);
+  std::vector<std::pair<std::string, std::string>> list;
+  for (const Definition& definition : std::views::reverse(model.definitions)) {
+    if (!used.contains(definition.name)) continue;
+    list.emplace_back(definition.name, definition.text);
+    used.merge(names_in(definition.value));
+  }
+  std::ranges::reverse(list);
+  return list;
+}
+
 Mechanics derived(const Model& model, bool keep_sums, int most) {
   Mechanics mechanics;
   mechanics.name = model.name;
   mechanics.hamiltonian_text = model.hamiltonian_text;
+  mechanics.definitions = definitions_of(model);
   mechanics.has_time = std::ranges::any_of(model.coordinates, &Variable::is_time);
   mechanics.degrees_of_freedom = static_cast<int>(degrees_of_freedom(model));
   mechanics.variables = state_of(model);

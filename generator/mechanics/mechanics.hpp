@@ -36,8 +36,9 @@ struct EnergyTerm {
 
 struct Mechanics {
   std::string name;
-  std::string hamiltonian_text;      // as the user wrote it
-  int degrees_of_freedom = 0;        // n
+  std::string hamiltonian_text;                                  // as the user wrote it
+  std::vector<std::pair<std::string, std::string>> definitions;  // of what it names, the same
+  int degrees_of_freedom = 0;                                    // n
   bool has_time = false;             // the last one is t with its momentum p_t, and H contains p_t
   QuantityList variables;            // 2n: q1..qn, p1..pn
   std::vector<EnergyTerm> terms;     // of H, numbered from 0

@@ -136,13 +136,19 @@ std::string solver_text(const LoweredStep& lowered) {
   return text;
 }
 
+std::string in_one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
 }  // namespace
 
 StepFacts describe_step(const LoweredStep& lowered, const Program& program) {
   const Mechanics& mechanics = lowered.plan.equations.mechanics;
   const Scheme& scheme = lowered.plan.equations.scheme;
   StepFacts facts{.system = mechanics.name,
-                  .hamiltonian = mechanics.hamiltonian_text,
+                  .hamiltonian = in_one_line(mechanics.hamiltonian_text),
+                  .definitions = mechanics.definitions,
                   .has_time = mechanics.has_time,
                   .constants = mechanics.constants,
                   .invariants = invariants_of(lowered),
@@ -154,7 +160,7 @@ StepFacts describe_step(const LoweredStep& lowered, const Program& program) {
                   .left_out = lowered.plan.left_out,
                   .cost = cost_text(lowered, program),
                   .needs_eigen = needs_eigen(lowered)};
-  std::ranges::replace(facts.hamiltonian, '\n', ' ');
+  for (auto& [name, text] : facts.definitions) text = in_one_line(text);
   return facts;
 }
 

@@ -10,8 +10,9 @@
 namespace hamgen {
 
 struct StepFacts {
-  std::string system;                     // "pendulum"
-  std::string hamiltonian;                // as the user wrote it, in one line
+  std::string system;       // "pendulum"
+  std::string hamiltonian;  // as the user wrote it, in one line
+  std::vector<std::pair<std::string, std::string>> definitions;  // of its names, each the same
   bool has_time = false;                  // is the last coordinate t, with p_t beside H?
   std::vector<Quantity> constants = {};   // parameters whose values are part of the code
   std::vector<Quantity> invariants = {};  // modified energies last

@@ -24,6 +24,9 @@ constexpr std::size_t kFewSymbols = 4;
 // these, and no more different parts in it.
 constexpr std::size_t kMostAffine = 24;
 constexpr std::size_t kMostParts = 200;
+// Of products on the way to one denominator: of one look, and of one of many.
+constexpr std::size_t kTermsOfAll = 20'000;
+constexpr std::size_t kTermsOfPoint = 1500;
 constexpr int kPoints = 200;
 // The first points only refute: most mistakes show at once.
 constexpr int kFirstPoints = 3;
@@ -324,7 +327,7 @@ class Decider {
 namespace {
 
 // Is it short enough to be brought over one denominator, and zero then?
-bool has_no_numerator(const Expression& e) {
+bool has_no_numerator(const Expression& e, std::size_t most_terms) {
   std::map<const void*, std::size_t> known;
   const std::size_t size = tree_size(e, known);
   const bool is_short =
@@ -334,7 +337,7 @@ bool has_no_numerator(const Expression& e) {
   SquareRoots roots;
   const Expression rational = roots.replace(e);
   try {
-    return vanishes_with_roots(numerator(to_ginac(rational, table)), roots, table);
+    return vanishes_with_roots(numerator(to_ginac(rational, table), most_terms), roots, table);
   } catch (const std::exception&) {  // a denominator that vanishes identically, or too many terms
     return false;
   }
@@ -344,7 +347,10 @@ bool has_no_numerator(const Expression& e) {
 bool vanishes_at_unit_points(const Expression& e) {
   const std::vector<std::string> affine = affine_symbols(e);
   return !affine.empty() && affine.size() <= kMostAffine &&
-         std::ranges::all_of(at_unit_points(e, affine), has_no_numerator);
+         symbols(e).size() <= affine.size() + kFewSymbols &&
+         std::ranges::all_of(at_unit_points(e, affine), [](const Expression& value) {
+           return has_no_numerator(value, kTermsOfPoint);
+         });
 }
 
 }  // namespace
@@ -361,7 +367,7 @@ bool is_zero_by_algebra(const Expression& e) {
   const Expression plain = without_ranks(e);
   SymbolTable table;
   if (size <= kExpandable && to_ginac(plain, table).expand().is_zero()) return true;
-  if (size <= kNormalisable) return has_no_numerator(plain);
+  if (size <= kNormalisable) return has_no_numerator(plain, kTermsOfAll);
   return known.size() <= kMostParts && vanishes_at_unit_points(plain);
 }
 

@@ -24,9 +24,6 @@ struct Fraction {
   DenominatorPowers denominator;  // of symbols, atoms, and sums whose first coefficient is 1
 };
 
-// Of all products together.  GiNaC's products take a time that grows with the square of their
-// terms: so many take up to a second.  What is proved of the shipped models has up to 7,500.
-constexpr std::size_t kMostTerms = 20'000;
 constexpr int kLargestPower = 100;  // of a sum
 constexpr long long kLargestExponent = 1'000'000;
 
@@ -57,6 +54,8 @@ std::size_t terms_of(const GiNaC::ex& sum) { return GiNaC::is_a<GiNaC::add>(sum)
 
 class Fractions {
  public:
+  explicit Fractions(std::size_t most_terms) : most_terms_(most_terms) {}
+
   // What stands in an expression many times is looked at once.
   Fraction fraction(const GiNaC::ex& e) {
     if (e.nops() == 0) return {.numerator = e};
@@ -94,7 +93,7 @@ class Fractions {
 
   GiNaC::ex product(const GiNaC::ex& a, const GiNaC::ex& b) {
     terms_ += terms_of(a) * terms_of(b);
-    if (terms_ > kMostTerms) throw std::length_error("products of many terms");
+    if (terms_ > most_terms_) throw std::length_error("products of many terms");
     return (a * b).expand();
   }
 
@@ -177,6 +176,7 @@ class Fractions {
     return result;
   }
 
+  std::size_t most_terms_;
   std::size_t terms_ = 0;
   std::map<GiNaC::ex, Fraction, GiNaC::ex_is_less> known_;
 };
@@ -184,10 +184,10 @@ class Fractions {
 }  // namespace
 
 // What is made of roots may become fractions when it is multiplied.
-GiNaC::ex numerator(const GiNaC::ex& e) {
+GiNaC::ex numerator(const GiNaC::ex& e, std::size_t most_terms) {
   GiNaC::ex result = e;
   for (int pass = 0; pass < 5; ++pass) {
-    result = Fractions().fraction(result).numerator.expand();
+    result = Fractions(most_terms).fraction(result).numerator.expand();
     if (!has_inverses(result)) return result;
   }
   throw std::length_error("fractions within fractions");

@@ -97,18 +97,19 @@ TEST(Run, TakesParametersAtRunTimeWithoutCompiling) {
   EXPECT_NEAR(second["energy"]["initial"].get<double>(), 0.1 * 0.1 / 2 - 0.06, 1e-16);
 }
 
-TEST(Run, FoldsAParameterWithItsDefault) {
+TEST(Run, FoldsAParameterWithItsValue) {
   const Scratch scratch;
   const std::string model = scratch.write("pendulum.ham", pendulum);
-  for (const std::string whole : {"--quiet", "--whole"}) {
-    const json folded = run_json({model, "--fold", "eps", whole});
+  for (const std::string value : {"eps=3/50", "eps=1/10"}) {
+    const json folded = run_json({model, "--fold", "eps", "--set", value});
+    EXPECT_EQ(folded["solver"]["left_out"][0].get<std::string>().substr(0, 13), "parameter eps");
     // One machine multiplication may round differently, a thousand steps apart by far less.
     EXPECT_NEAR(folded["state"]["q"][0].get<double>(),
-                run_json({model})["state"]["q"][0].get<double>(), 1e-12);
-    const Result refused = hamgen({"run", model, whole, "--fold", "eps", "--set", "eps=1"});
-    EXPECT_EQ(refused.status, 2);
-    EXPECT_TRUE(contains(refused.err, "leave out --fold eps")) << refused.err;
+                run_json({model, "--set", value})["state"]["q"][0].get<double>(), 1e-12);
   }
+  const Result refused = hamgen({"run", model, "--whole", "--fold", "eps", "--set", "eps=1"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, "leave out --fold eps")) << refused.err;
 }
 
 TEST(Run, ComputesTheEnergyParameter) {

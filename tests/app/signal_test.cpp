@@ -77,7 +77,7 @@ TEST(Signals, EndARunInGoodOrderWithAllItsRows) {
     EXPECT_EQ(scratch.names(), (std::vector<std::string>{"err", "pendulum.ham", "x.csv"}));
     const std::vector<std::string> rows = lines(read(scratch.path("x.csv")));
     ASSERT_FALSE(rows.empty());
-    EXPECT_TRUE(rows.back().starts_with("# status    stopped: stopped after ")) << rows.back();
+    EXPECT_TRUE(rows.back().starts_with("# status    stopped after ")) << rows.back();
   }
 }
 
