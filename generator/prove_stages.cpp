@@ -20,8 +20,7 @@ namespace {
 Finding prove_front_end(const Stages& stages, const Surroundings& around) {
   const Mechanics& mechanics = stages.system.given;
   const bool folded = !stages.folded.folding.left_out.empty();
-  Model model = stages.model;
-  for (Parameter& parameter : model.parameters) parameter.folded = parameter.folded && !folded;
+  const Model model = folded ? with_free_parameters(stages.model) : stages.model;
   DerivedFormulas derived{.hamiltonian = written_out_hamiltonian(model)};
   if (!folded && !mechanics.keeps_sums()) {
     derived.gradient = mechanics.gradient;

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/base/utf8.hpp"
 #include "runtime/csv_writer.hpp"
 
 namespace hamgen::app {
@@ -56,7 +57,7 @@ class TableReader {
         fail("the last line has no end: the file is cut off",
              "draw it without that line: head -n -1 FILE > OTHER");
       if (!line.empty() && line.back() == '\r') line.pop_back();
-      if (number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // a byte order mark
+      if (number_ == 1) line.erase(0, line.size() - without_byte_order_mark(line).size());
       is_made = is_made || line.starts_with("# made by   hamgen");
       is_ours = is_ours || (is_made && line.starts_with("step,t"));
       table_.is_whole = !is_ours || line.starts_with(status);

@@ -9,6 +9,7 @@
 #include "app/studies/philox.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
+#include "generator/base/utf8.hpp"
 #include "runtime/atomic_file.hpp"
 #include "runtime/csv_writer.hpp"
 #include "runtime/sha256.hpp"
@@ -109,9 +110,8 @@ EnsembleTable read_ensemble_table(const std::string& path) {
   const std::string text = runtime::read_file(path);
   EnsembleTable table{.path = path, .digest = runtime::sha256_hex(text), .names = {}, .values = {}};
   std::size_t line_number = 0;
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  std::size_t begin = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-  while (begin < text.size()) {
+  for (std::size_t begin = text.size() - without_byte_order_mark(text).size();
+       begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line = without_blanks(std::string_view(text).substr(begin, end - begin));
     begin = end + 1;

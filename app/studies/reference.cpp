@@ -147,8 +147,8 @@ ReferenceSolution compute(const runtime::LoadedPlugin& loaded, const runtime::In
   return reference;
 }
 
-// With what it is of, for the list of the cache.  Where that has no room, which was said when the
-// plugin was compiled, the reference is computed again next time.
+// With what it is of, for the list of the cache.  Where that has no room the reference is computed
+// again next time, as a plugin is compiled again: `run` says so.
 void keep(const runtime::Cache& cache, const std::string& key, const std::string& text,
           const PluginSource& plugin) {
   try {

@@ -28,7 +28,7 @@ std::size_t line_index(const SourceText& source, std::size_t offset) {
 }  // namespace
 
 SourceText make_source(std::string path, std::string text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  text.erase(0, text.size() - without_byte_order_mark(text).size());
   SourceText source{.path = std::move(path), .text = std::move(text), .line_starts = {0}};
   for (std::size_t i = 0; i < source.text.size(); ++i) {
     if (source.text[i] == '\n') source.line_starts.push_back(i + 1);

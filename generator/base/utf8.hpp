@@ -22,6 +22,9 @@ struct CodePoint {
 // the separators of lines and paragraphs, and the property Bidi_Control.
 [[nodiscard]] bool is_control(char32_t character);
 
+// The text behind a byte order mark, if it begins with one.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
 // A line of a source as a terminal can show it, code point by code point: tabs become one space,
 // other control characters and illegal bytes '?'.
 [[nodiscard]] std::string printable(std::string_view text);

@@ -144,9 +144,12 @@ struct Refinement {
     return more;
   }
   // Of unknowns that a round still moves by more than a 32nd of a unit, when no more is to be had,
-  // and by a part of what the first one did that rounding does not leave.  Where the amplifier is
-  // small, in float, differences leave more than that of the largest unknown: one that is near zero
-  // for a moment is not told from what does not converge, and steps that were solved failed.
+  // and by a part of what the first one did that rounding does not leave.  A row of some eight
+  // terms, each of the size of the largest unknown, is rounded by as many of its units, and a
+  // difference over the amplifier by that part of them.  In double that is below a 2^-14th of a
+  // unit, and the part of the first round answers for it; in float it is a 16th: an unknown that is
+  // near zero for a moment could not be told from what does not converge, and steps that were
+  // solved failed.
   Real far_off(const Real* lack) const {
     Real noise = 0;
     for (int j = 0; j < Size && amplifier < 4096; ++j) {

@@ -112,7 +112,7 @@ bool is_quad_function(std::string_view name) {
 
 // A function by the name that C calls it by: a variable cos_ would become a local that hides it.
 bool is_function_of_c(std::string_view name) {
-  return name == "fabs" || name == "fma" ||
+  return name == "fabs" || name == "pow" ||
          std::ranges::find(all_functions(), name, &Function::cpp) != all_functions().end();
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "generator/verify/identities.hpp"
+#include "generator/verify/zero_by_algebra.hpp"
 #include "generator/verify/precise.hpp"
 #include "generator/verify/proof.hpp"
 #include "generator/verify/words.hpp"

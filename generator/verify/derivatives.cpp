@@ -6,7 +6,7 @@
 
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/mechanics/to_ginac.hpp"
-#include "generator/verify/identities.hpp"
+#include "generator/verify/zero_by_algebra.hpp"
 
 namespace hamgen {
 

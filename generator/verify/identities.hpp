@@ -56,7 +56,4 @@ struct Decision {
 // several scales, to 1e-40 of their terms", or by algebra, and which corners that is off.
 [[nodiscard]] std::string points_text(const Decision& decision);
 
-// Is the expression zero by algebra?  False also where that takes too long to find out.
-[[nodiscard]] bool is_zero_by_algebra(const Expression& e);
-
 }  // namespace hamgen

@@ -29,11 +29,6 @@ class Slopes {
   GiNaC::ex value_;
 };
 
-Model with_free_parameters(Model model) {
-  for (Parameter& parameter : model.parameters) parameter.folded = false;
-  return model;
-}
-
 class SpecialisedClaims {
  public:
   SpecialisedClaims(const Model& model, const FoldedModel& folded, const Specialised& system,
@@ -334,6 +329,11 @@ class SpecialisedClaims {
 };
 
 }  // namespace
+
+Model with_free_parameters(Model model) {
+  for (Parameter& parameter : model.parameters) parameter.folded = false;
+  return model;
+}
 
 Finding prove_specialised(const Model& model, const FoldedModel& folded, const Specialised& system,
                           const SceneFacts& scene, const Surroundings& around) {

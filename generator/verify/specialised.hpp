@@ -7,6 +7,9 @@
 
 namespace hamgen {
 
+// None of them folded: what a scene puts in is not what the model says.
+[[nodiscard]] Model with_free_parameters(Model model);
+
 // That what was left out of `model` for the scene may be: the scene has the values that were put
 // in; H with them is H; where the scene begins, the variables that rest are zero, and nothing in
 // J grad H or C moves them; no equation of what is kept has what is not observed; and the system

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "generator/verify/identities.hpp"
+#include "generator/verify/zero_by_algebra.hpp"
 #include "generator/verify/swept.hpp"
 
 namespace hamgen {

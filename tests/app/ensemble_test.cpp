@@ -207,7 +207,8 @@ TEST(Ensemble, HasTheSameBytesWhateverTheThreads) {
 TEST(Ensemble, SaysHowEachTrajectoryEnded) {
   const Scratch scratch;
   const std::string model = scratch.write("collapse.ham", collapse);
-  const std::string starts = scratch.write("s.csv", "q,p\n1,0\n0,0\n5,1\n");
+  const std::string mark = "\xEF\xBB\xBF";  // as spreadsheets begin their files
+  const std::string starts = scratch.write("s.csv", mark + "q,p\n1,0\n0,0\n5,1\n");
   const Result result = hamgen({"ensemble", model, "--from", starts, "--steps", "100", "-o",
                                 scratch.path("x.csv"), "--json", "--quiet"});
   EXPECT_EQ(result.status, 0) << result.err;

@@ -236,22 +236,27 @@ TEST(Run, GoesOnWithoutAUsableCache) {
 }
 
 // A disk of its own for the cache, in a namespace of its own where the system has such.
-Result run_with_cache_of(const std::string& size, const std::string& model,
-                         const std::string& directory) {
+Result with_cache_of(const std::string& size, const std::string& directory,
+                     const std::vector<std::string>& words) {
   runtime::ProcessRequest request;
   request.command = {"unshare",
                      "-Urm",
                      "sh",
                      "-c",
                      "mount -t tmpfs -o mode=700,size=\"$1\" tmpfs \"$2\" || exit 99; "
-                     "HAMGEN_CACHE=\"$2\" \"$3\" run \"$4\" --steps 10",
+                     "export HAMGEN_CACHE=\"$2\"; shift 2; exec \"$@\"",
                      "sh",
                      size,
                      directory,
-                     HAMGEN_EXECUTABLE,
-                     model};
+                     HAMGEN_EXECUTABLE};
+  request.command.insert(request.command.end(), words.begin(), words.end());
   const runtime::ProcessResult result = runtime::run_process(request);
   return {.status = result.code, .out = "", .err = result.output};
+}
+
+Result run_with_cache_of(const std::string& size, const std::string& model,
+                         const std::string& directory) {
+  return with_cache_of(size, directory, {"run", model, "--steps", "10"});
 }
 
 TEST(Run, GoesOnWithAFullOrNearlyFullCacheDisk) {
@@ -269,6 +274,12 @@ TEST(Run, GoesOnWithAFullOrNearlyFullCacheDisk) {
     warnings += contains(result.err, "warning: ") ? 1 : 0;
   }
   EXPECT_GE(warnings, 4);
+  // The reference of `bench` finds no room either.
+  const Result bench = with_cache_of("4k", directory,
+                                     {"bench", model, "--schemes", "stormer-verlet", "--rounds",
+                                      "1", "--h", "0.1", "--steps", "10"});
+  EXPECT_EQ(bench.status, 0) << bench.err;
+  EXPECT_TRUE(contains(bench.err, "time for a state error")) << bench.err;
 }
 
 TEST(Cache, ListsAndClears) {

@@ -182,6 +182,8 @@ TEST(Pictures, OfAFileThatIsNoneAreRefusedWithThePlace) {
     return std::to_string(result.status) + " " + result.err;
   };
   EXPECT_TRUE(said(head + "# status    done\n").starts_with("0 ")) << said(head);
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_TRUE(said(mark + head + "# status    done\n").starts_with("0 ")) << said(mark + head);
   EXPECT_TRUE(contains(said(head), "0 hamgen: warning: ")) << said(head);
   EXPECT_TRUE(contains(said(head + "1,0.1,0.99"), "t.csv:4: the last line has no end"));
   EXPECT_TRUE(contains(said(head + "1,0.1,0.99\n"),

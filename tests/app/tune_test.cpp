@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/studies/tune_orbit.hpp"
+#include "generator/pipeline.hpp"
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/models.hpp"
 
@@ -223,6 +226,25 @@ TEST(Tune, WhatRestsIsLeftOutOfTheStepThatIsTuned) {
     const double spread = all["gauges"].back()["energy_spread"];
     EXPECT_NEAR(special["gauges"].back()["energy_spread"].get<double>(), spread, 1e-15) << form;
   }
+}
+
+// However many samples are still to come.
+TEST(Tune, AnOrbitThatIsStoppedEnds) {
+  const SourceText source =
+      make_source("oscillator.ham",
+                  "coordinate q\nmomentum p\nH = p^2/2 + q^4/4\nscene s { q = 1; h = 0.1 }\n");
+  std::atomic<bool> stop = false;
+  long samples = 0;
+  const app::Orbit orbit =
+      app::sample_orbit(source, scene_values(read_model(source), {}),
+                        {.method = {},
+                         .time = Rational(1),
+                         .samples = 1'000'000'000,
+                         .compiler = {},
+                         .stop = &stop,
+                         .on_progress = [&](double) { stop = ++samples == 3; }});
+  EXPECT_EQ(orbit.points.size(), 3u);
+  EXPECT_EQ(orbit.failure, "it was stopped");
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ const std::vector<std::string> hostile = {
     "hamgen_run", "create",   "state",      "steps",        "known",     "magnitude", "unknowns",
     "advance",    "lambda",   "gamma",      "beta",         "alpha",     "float128",  "EOF",
     "y0",         "j1",       "predicted",  "best",         "value",     "increment", "rule_0",
-    "d_p_d_q",    "entry_1",  "put",        "drift_",       "cos_",      "column"};
+    "d_p_d_q",    "entry_1",  "put",        "drift_",       "cos_",      "column",    "pow_"};
 
 // A model that the language accepts, or nothing if it refuses the name.
 std::string header(const std::string& text, const Request& request, const std::string& space) {
@@ -58,11 +58,11 @@ std::string written_out(const Request& request) {
     const std::string q1 = name(0), q2 = name(1), p1 = name(2), p2 = name(3), a = name(4),
                       b = name(5);
     units += "#line 1 \"" + q1 + "_" + q2 + "_" + p1 + "_" + p2 + "_" + a + "_" + b + ".hpp\"\n";
-    units +=
-        header("system hostile\ncoordinate " + q1 + ", " + q2 + "\nmomentum " + p1 + ", " + p2 +
-                   "\nparameter " + a + " = 2\nparameter " + b + " = 3\nH = " + p1 + "^2*(1 + " +
-                   q2 + "^2) + " + a + "*" + p2 + "^2 - " + b + "*cos(" + q1 + " - " + q2 + ")\n",
-               request, "n" + std::to_string(i));
+    units += header("system hostile\ncoordinate " + q1 + ", " + q2 + "\nmomentum " + p1 + ", " +
+                        p2 + "\nparameter " + a + " = 2\nparameter " + b + " = 3\nH = " + p1 +
+                        "^2*(1 + " + q2 + "^2)^0.3 + " + a + "*" + p2 + "^2 - " + b + "*cos(" + q1 +
+                        " - " + q2 + ")\n",
+                    request, "n" + std::to_string(i));
   }
   return units;
 }

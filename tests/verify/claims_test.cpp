@@ -8,6 +8,7 @@
 #include "generator/pipeline.hpp"
 #include "generator/verify/identities.hpp"
 #include "generator/verify/linear_stability.hpp"
+#include "generator/verify/zero_by_algebra.hpp"
 
 namespace hamgen {
 namespace {
