@@ -295,6 +295,10 @@ Request request_of(const MethodOptions& options, const SceneOptions& scene,
     throw UsageError(
         "--keep is about what a scene does not need, but none is named\nhelp: without --scene "
         "nothing is left out");
+  if (scene.observe)
+    throw UsageError(
+        "--observe is about what is looked at in a scene, but none is named\nhelp: add --scene "
+        "NAME");
   Request request = request_of(options);
   if (!scene.set.empty()) request.sizes = sizes_of(scene.set, source);
   if (request.gauge->locally_exact) {

@@ -88,6 +88,8 @@ StressLimits read_limits(const StressOptions& options, long steps) {
 int run_stress(const StressOptions& options) {
   if (!options.plot.empty() && !options.plot.ends_with(".svg") && !options.plot.ends_with(".png"))
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
+  if (options.csv == "-")
+    throw UsageError("--csv -: this names a file\nhelp: for the cells on standard output: -o -");
   StressRequest request;
   const OutputKind kind = output_kind(options.output);
   require_one_document(options.json, kind);

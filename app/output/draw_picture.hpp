@@ -16,6 +16,7 @@ struct PictureFiles {
 
 // Writes the script, draws the picture and, unless quiet, says where they are.  Without gnuplot it
 // says how to draw it: no reason to give up what else was computed.  False if there is no picture.
+// Throws ToolError where a file cannot be written.
 bool draw_picture(const PictureFiles& files, bool quiet, StopFlag stop);
 
 }  // namespace hamgen::app

@@ -54,10 +54,10 @@ class Aside {
     std::filesystem::remove(path_, ignored);
   }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] bool publish() const {
+  void publish() const {
     std::error_code failed;
     std::filesystem::rename(path_, picture_, failed);
-    return !failed;
+    if (failed) throw runtime::file_error("write", picture_, failed.value());
   }
 
  private:
@@ -67,6 +67,7 @@ class Aside {
 
 // Gnuplot does not mind a full disk.
 bool is_whole(const std::filesystem::path& picture) {
+  if (!std::filesystem::exists(picture)) return false;
   const std::string text = runtime::read_file(picture);
   if (text.starts_with("\x89PNG")) return text.ends_with("IEND\xAE\x42\x60\x82");
   return text.substr(0, text.find_last_not_of('\n') + 1).ends_with("</svg>");
@@ -128,14 +129,21 @@ std::string run_gnuplot(const std::string& script, const std::filesystem::path& 
     if (!result.succeeded())
       return fmt::format("gnuplot: {}\n{}", runtime::end_text(result, request),
                          runtime::tail_of(result.output));
-    if (!is_whole(aside.path())) return "gnuplot did not write all of it: is the disk full?";
-    if (picture.extension() == ".svg")
-      runtime::atomic_write(aside.path(), with_dark_form(runtime::read_file(aside.path())));
-    return aside.publish() ? "" : fmt::format("cannot write '{}'", picture.string());
+    if (!is_whole(aside.path()))
+      throw runtime::ToolError(
+          {.message = fmt::format("cannot write '{}': gnuplot did not write all of it: is the disk "
+                                  "full?",
+                                  picture.string())});
+    if (picture.extension() == ".svg") {
+      runtime::atomic_write(picture, with_dark_form(runtime::read_file(aside.path())));
+    } else {
+      aside.publish();
+    }
+    return "";
   } catch (const runtime::ToolError& error) {
     const runtime::ToolFailure& failure = error.failure();
-    const bool was_called = !failure.command.empty();
-    return (was_called ? "gnuplot could not be started: " : "") + failure.message;
+    if (failure.command.empty()) throw;  // of a file
+    return "gnuplot could not be started: " + failure.message;
   }
 }
 

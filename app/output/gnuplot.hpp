@@ -18,7 +18,7 @@ namespace hamgen::app {
 
 // Runs gnuplot on the text of a script whose output is the picture, which appears whole or not at
 // all.  Returns an empty text, or why there is no picture (gnuplot is missing or failed): no reason
-// to give up what else was computed.
+// to give up what else was computed.  Throws ToolError where the picture cannot be written.
 [[nodiscard]] std::string run_gnuplot(const std::string& script,
                                       const std::filesystem::path& picture, StopFlag stop);
 

@@ -58,6 +58,11 @@ OutputKind table_kind(const std::string& name) {
 }
 
 void require_directory(const std::string& option, const std::string& name) {
+  if (name == "-")
+    throw UsageError(
+        fmt::format("{0} -: files are written into a directory, and standard output is none\n"
+                    "help: {0} DIRECTORY/",
+                    option));
   const std::string ending = std::filesystem::path(name).extension().string();
   const bool is_word = ending.size() > 1 && ending.size() <= 5 &&
                        std::isalpha(static_cast<unsigned char>(ending[1])) != 0;

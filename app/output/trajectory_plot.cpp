@@ -57,6 +57,14 @@ class TrajectoryPlotter {
     if (n > 3) over_time(q, "coordinates");
     if (n > 0) over_time(p, "momenta");
     if (n == 0) over_time(others(), "");
+    if (n == 0 && others().empty())
+      throw UsageError(fmt::format(
+          "no trajectory: what is drawn stands behind the time, in the third column and those "
+          "after it, and there are {}{}",
+          fmt::join(table_.columns, ", "),
+          table_.columns.size() < 2 ? ""
+                                    : "\nhelp: one over the other: --columns " + table_.columns[1] +
+                                          ":" + table_.columns[0]));
     if (energy_) over_time({kEnergyErrorColumn}, "energy error");
     return finish();
   }

@@ -228,7 +228,7 @@ struct RefineArray {
   // steps from then on.
   std::optional<Place> patience = {};
   int steps = 0;
-  Body first = {};
+  Body first;
   Body body;
 };
 // The body a fixed number of times; then the unknowns are `results`.

@@ -1,6 +1,7 @@
 #include "generator/program/step_weights.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "generator/equations/step_equations.hpp"
 #include "generator/program/arithmetic.hpp"
@@ -66,7 +67,7 @@ std::pair<Expression, Expression> StepWeights::flow_in_two_parts(const Expressio
 }
 
 bool StepWeights::uses_h() const {
-  return std::ranges::any_of(std::initializer_list{q_by_p, p_by_q, p_by_p, q_by_q},
+  return std::ranges::any_of(std::array{q_by_p, p_by_q, p_by_p, q_by_q},
                              [](const auto& w) { return w && depends_on(*w, "h"); });
 }
 

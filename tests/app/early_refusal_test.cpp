@@ -52,6 +52,51 @@ TEST(EarlyRefusal, OfADirectoryWhereAFileIsWanted) {
   EXPECT_NE(plot.err.find("it is a directory"), std::string::npos) << plot.err;
 }
 
+// Standard output is no directory, and no file of the name "-" is made of it.
+TEST(EarlyRefusal, OfStandardOutputWhereFilesAreWanted) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"plugin", model, "-o", "-"},
+           {"report", model, "-o", "-"},
+           {"stress", model, "--vary", "h=0.1:0.2:2", "--csv", "-"}}) {
+    const Result result = hamgen(words);
+    EXPECT_EQ(result.status, 2) << words[0];
+    EXPECT_NE(result.err.find("help: "), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists("-")) << words[0];
+  }
+}
+
+// An option that another one leaves without a meaning is not passed over.
+TEST(EarlyRefusal, OfWhatWouldBePassedOver) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"check", model, "--observe", "energy"},
+           {"show", model, "--observe", "energy"},
+           {"generate", model, "--observe", "energy"},
+           {"verify", model, "--emitted", scratch.path("m.hpp"), "--format", "c-header"}}) {
+    const Result result = hamgen(words);
+    EXPECT_EQ(result.status, 2) << words[0];
+    EXPECT_TRUE(result.err.find("none is named") != std::string::npos ||
+                result.err.find("leave out one of them") != std::string::npos)
+        << result.err;
+  }
+}
+
+// Gnuplot is not asked for a picture of nothing, and no script is left.
+TEST(EarlyRefusal, OfATableThatIsNoTrajectory) {
+  const Scratch scratch;
+  const std::string table = scratch.write("a.csv", "a,b\n1,2\n2,3\n");
+  const std::string picture = scratch.path("a.svg");
+  const Result result = hamgen({"plot", table, "-o", picture});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("no trajectory"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("help: one over the other: --columns b:a"), std::string::npos);
+  EXPECT_EQ(scratch.names(), (std::vector<std::string>{"a.csv"}));
+  EXPECT_EQ(hamgen({"plot", table, "-o", picture, "--columns", "b:a"}).status, 0);
+}
+
 // What a command reads is not what it writes.
 TEST(EarlyRefusal, OfWritingOverWhatIsRead) {
   const Scratch scratch;

@@ -90,8 +90,7 @@ Scheme scheme_of(const Mechanics& mechanics, const Gauge& gauge) {
 
 FormalStep::FormalStep(const Mechanics& mechanics, const Member& member,
                        const std::vector<Expression>& slopes)
-    : n_(static_cast<std::size_t>(mechanics.degrees_of_freedom)),
-      parameters_(defaults(mechanics)),
+    : parameters_(defaults(mechanics)),
       slopes_(slopes, names(mechanics)),
       matrix_(values(stage_matrix(of_all(member, mechanics.degrees_of_freedom))),
               names(mechanics)) {

@@ -29,7 +29,6 @@ class FormalStep {
   [[nodiscard]] Vector after(int steps, const Vector& start, long double h) const;
 
  private:
-  std::size_t n_;
   Vector parameters_;
   Tape slopes_;
   Tape matrix_;  // the nonzero entries of (1/2 + C) J at h
