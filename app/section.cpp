@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "app/output/trajectory_plot.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
+#include "app/studies/natural_sizes.hpp"
 #include "app/studies/scheme_spec.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
@@ -156,7 +158,11 @@ void require_intervals(const SectionOptions& options, const Geometry& g) {
 
 // Starts are drawn in the plane of the axes, which then are variables.
 void read_starts(const SectionOptions& options, const Geometry& g, SectionRequest& request) {
-  request.orbits = static_cast<int>(integer_value("--orbits " + options.orbits, options.orbits, 0));
+  constexpr long kMostOrbits = 100'000;  // more lie in memory together than a picture can show
+  const long orbits = integer_value("--orbits " + options.orbits, options.orbits, 0);
+  if (orbits > kMostOrbits)
+    throw UsageError(fmt::format("--orbits {}: {} at most", options.orbits, kMostOrbits));
+  request.orbits = static_cast<int>(orbits);
   request.points = integer_value("--points " + options.points, options.points, 1);
   if (request.orbits == 0) {
     // Then there is nothing to start.
@@ -261,6 +267,9 @@ int run_section(const SectionOptions& options) {
   request.direction = direction;
   request.energy =
       energy.value_or(loaded.library->energy(request.start.parameters, request.start.state).hi);
+  const runtime::Judge judge(request.library, request.start.parameters, request.start.state, false);
+  request.sizes = natural_sizes(*request.library, request.start,
+                                std::max(judge.energy_terms(), std::abs(request.energy)));
   request.steps = *scene.steps;
   Work work(progress_bars(options.quiet), "section", std::max(1, request.orbits));
   request.on_progress = [&work](int done, int) { work.tell(done); };

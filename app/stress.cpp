@@ -90,6 +90,9 @@ int run_stress(const StressOptions& options) {
     throw UsageError(fmt::format("--plot {}: the name ends in .svg or .png", options.plot));
   if (options.csv == "-")
     throw UsageError("--csv -: this names a file\nhelp: for the cells on standard output: -o -");
+  if (options.csv.ends_with(".json"))
+    throw UsageError(
+        fmt::format("--csv {}: that is a name for JSON\nhelp: -o {}", options.csv, options.csv));
   StressRequest request;
   const OutputKind kind = output_kind(options.output);
   require_one_document(options.json, kind);

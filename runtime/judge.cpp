@@ -60,6 +60,23 @@ double energy_of_sizes(std::span<const double> state, std::span<const double> gr
   return sum > 0.0 ? sum : norm_of(state) * norm_of(gradient);
 }
 
+// The coordinates that move by 1 in a unit of time whatever the state is, as that of `time t` does:
+// how far they are says nothing of the orbit.
+std::vector<std::size_t> clocks(const Library& library, const std::vector<double>& parameters,
+                                std::vector<double> state) {
+  const std::size_t n = state.size() / 2;
+  std::vector<std::size_t> found;
+  const std::vector<double> here = library.gradient(parameters, state);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (here[n + i] != 1.0) continue;
+    const double before = state[n + i];
+    state[n + i] = 2.0 * before + 1.0;
+    if (library.gradient(parameters, state)[n + i] == 1.0) found.push_back(i);
+    state[n + i] = before;
+  }
+  return found;
+}
+
 }  // namespace
 
 Judge::Judge(std::shared_ptr<const Library> library, std::span<const Wide> parameters,
@@ -68,16 +85,26 @@ Judge::Judge(std::shared_ptr<const Library> library, std::span<const Wide> param
       parameters_(rounded(parameters)),
       defined_everywhere_(defined_everywhere),
       energy_(library_->energy(parameters, start)) {
-  const std::vector<double> state = rounded(start);
-  const std::vector<double> gradient = library_->gradient(parameters_, state);
+  const std::vector<double> whole = rounded(start);
+  const std::vector<double> gradient = library_->gradient(parameters_, whole);
+  clocks_ = clocks(*library_, parameters_, whole);
+  const std::vector<double> state = without_clocks(whole);
   const HalfProducts half = half_products(state, gradient);
   energy_scale_ = std::max(std::fabs(energy_.hi), energy_of_sizes(state, gradient));
-  energy_terms_ = std::max({std::fabs(energy_.hi), terms(state), std::fabs(half.q)});
+  energy_terms_ = std::max({std::fabs(energy_.hi), terms(whole), std::fabs(half.q)});
   q_size_ = std::max(1.0, largest_component(state));
   p_size_ = std::max(q_size_, std::sqrt(2.0 * energy_scale_));
 }
 
-double Judge::size_of(std::span<const double> state) const {
+std::vector<double> Judge::without_clocks(std::span<const double> state) const {
+  std::vector<double> rest(state.begin(), state.end());
+  for (const std::size_t clock : clocks_) rest[clock] = 0.0;
+  return rest;
+}
+
+double Judge::size_of(std::span<const double> whole) const {
+  const std::vector<double> rest = without_clocks(whole);
+  const std::span<const double> state = rest;
   const std::size_t n = state.size() / 2;
   return std::max(largest_component(state.first(n)) / q_size_,
                   largest_component(state.last(n)) / p_size_);
@@ -96,7 +123,8 @@ std::optional<double> Judge::raised_limit(double limit, std::span<const double> 
 
 bool Judge::keeps_energy(std::span<const double> state, double energy_error) const {
   constexpr double small = 0.1;
-  const HalfProducts half = half_products(state, library_->gradient(parameters_, state));
+  const HalfProducts half =
+      half_products(without_clocks(state), library_->gradient(parameters_, state));
   const double scale = std::max(std::fabs(half.q), std::fabs(half.p));
   return std::isfinite(scale) && energy_error <= small * std::max(scale, energy_scale_);
 }

@@ -27,8 +27,9 @@ class Judge {
   // The largest of |H|, terms() and |q H_q|/2 at the start, energies all of them, whatever the
   // units of q and p: what a person compares an energy error with.
   [[nodiscard]] double energy_terms() const { return energy_terms_; }
-  // How large the components of a state are.  The unit is the largest at the start, or 1; for
-  // momenta also that of a mass of 1 that has all the energy of the scale as kinetic energy.
+  // How large the components of a state are, but for the time of a driven system.  The unit is the
+  // largest at the start, or 1; for momenta also that of a mass of 1 that has all the energy of the
+  // scale as kinetic energy.
   [[nodiscard]] double size_of(std::span<const double> state) const;
 
   // Ten energy scales.
@@ -53,12 +54,15 @@ class Judge {
                                double energy_error) const;
 
  private:
+  [[nodiscard]] std::vector<double> without_clocks(std::span<const double> state) const;
+
   std::shared_ptr<const Library> library_;
   std::vector<double> parameters_;  // rounded: what follows are sizes, not results
   bool defined_everywhere_;
   Wide energy_;
   double energy_scale_;
   double energy_terms_;
+  std::vector<std::size_t> clocks_;  // coordinates that are the time
   double q_size_;
   double p_size_;
 };

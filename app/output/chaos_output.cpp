@@ -24,6 +24,19 @@ ChaosJson json_of(const ChaosSample& sample) {
           {"fli", sample.fli}, {"sali", sample.sali},         {"gali", sample.gali}};
 }
 
+// Is the unit of time about that of the motion?  Steps are some hundredths of it; else ln t is the
+// logarithm of a number that has nothing to do with the orbit.
+bool has_unit_of_motion(const ChaosTitle& title) {
+  const double h = std::abs(title.h);
+  return 1e-4 < h && h < 10.0;
+}
+
+// Numbers of one size are the easier to compare without exponents.
+std::string frequency_text(double frequency, double largest) {
+  const bool plain = 1e-3 < largest && largest < 1e6;
+  return plain ? fmt::format("{:+.12f}", frequency) : fmt::format("{:+.12e}", frequency);
+}
+
 }  // namespace
 
 std::string chaos_text(const Chaos& chaos, const ChaosTitle& title) {
@@ -35,14 +48,18 @@ std::string chaos_text(const Chaos& chaos, const ChaosTitle& title) {
                       kept_text(chaos.largest_energy_error, chaos.energy_scale));
   if (chaos.status != runtime::Status::done)
     text += fmt::format("  ended      {} before all steps were done\n", to_text(chaos.status));
-  text += fmt::format("  lyapunov   {:.5g} (on a regular orbit about ln(t)/t = {:.1e})\n",
-                      end.lyapunov, std::log(std::abs(end.time)) / std::abs(end.time));
-  text +=
-      fmt::format("  MEGNO      {:.5g} (regular 2, isochronous 0, chaotic lyapunov t/2 = {:.3g})\n",
-                  end.megno, 0.5 * end.lyapunov * std::abs(end.time));
-  text += fmt::format("  FLI        {:.5g} (on a regular orbit about ln t = {:.3g})\n", end.fli,
-                      std::log(std::abs(end.time)));
-  text += fmt::format("  SALI       {:.3g} (chaotic: to 0 as exp(-(l1 - l2) t))\n", end.sali);
+  const double logarithm = std::log(std::abs(end.time));
+  const bool knows_regular = has_unit_of_motion(title) && logarithm > 1.0;
+  text += fmt::format("  lyapunov   {:.5g}", end.lyapunov);
+  if (knows_regular)
+    text +=
+        fmt::format(" (on a regular orbit about ln(t)/t = {:.1e})", logarithm / std::abs(end.time));
+  text += fmt::format(
+      "\n  MEGNO      {:.5g} (regular 2, isochronous 0, chaotic lyapunov t/2 = {:.3g})\n",
+      end.megno, 0.5 * end.lyapunov * std::abs(end.time));
+  text += fmt::format("  FLI        {:.5g}", end.fli);
+  if (knows_regular) text += fmt::format(" (on a regular orbit about ln t = {:.3g})", logarithm);
+  text += fmt::format("\n  SALI       {:.3g} (chaotic: to 0 as exp(-(l1 - l2) t))\n", end.sali);
   text += fmt::format("  GALI_{}     {:.3g}\n", chaos.deviations, end.gali);
   if (!chaos.spectrum.empty()) {
     text += "  spectrum  ";
@@ -59,8 +76,11 @@ std::string frequencies_text(const std::vector<DegreeFrequencies>& degrees,
     text += fmt::format(
         "  frequencies of {} (change from the first part of the time to the last {:.1e})\n",
         title.coordinates[i], degrees[i].change);
+    double largest = 0.0;
     for (const Harmonic& harmonic : degrees[i].harmonics)
-      text += fmt::format("    {:+.12f}  amplitude {:.4e}\n", harmonic.frequency,
+      largest = std::max(largest, std::abs(harmonic.frequency));
+    for (const Harmonic& harmonic : degrees[i].harmonics)
+      text += fmt::format("    {}  amplitude {:.4e}\n", frequency_text(harmonic.frequency, largest),
                           std::abs(harmonic.amplitude));
   }
   return text;

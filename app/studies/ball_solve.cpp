@@ -8,7 +8,8 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-constexpr double kSmallest = 1e-3;  // of the largest unknown: what an unknown counts at least
+// Of the largest coordinate, or momentum: what one counts at least.
+constexpr double kSmallest = 1e-3;
 constexpr int kMostIterations = 40;
 constexpr double kLeastRadius = 1e-14;
 
@@ -51,13 +52,19 @@ BallVector times(const std::vector<Numbers>& y, const BallVector& f) {
 }
 
 // The sizes that the unknowns are measured by: exact numbers above 0.
-Numbers sizes_of(const BallVector& x) {
-  double largest = 0.0;
-  for (const Ball& value : x) largest = std::max(largest, std::fabs(value.nearest()));
-  if (largest == 0.0) largest = 1.0;
+Numbers sizes_of(const BallVector& x, int degrees_of_freedom) {
+  const auto n = static_cast<std::size_t>(degrees_of_freedom);
+  const auto is_momentum = [n](std::size_t i) { return n > 0 && i / n % 2 == 1; };
+  double largest[2] = {0.0, 0.0};  // of coordinates, of momenta
+  for (std::size_t i = 0; i < x.size(); ++i)
+    largest[is_momentum(i)] = std::max(largest[is_momentum(i)], std::fabs(x[i].nearest()));
+  const double either = std::max(largest[0], largest[1]);
+  for (double& each : largest) {
+    if (each == 0.0) each = either > 0.0 ? either : 1.0;
+  }
   Numbers sizes;
-  for (const Ball& value : x)
-    sizes.push_back(std::max(std::fabs(value.nearest()), kSmallest * largest));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    sizes.push_back(std::max(std::fabs(x[i].nearest()), kSmallest * largest[is_momentum(i)]));
   return sizes;
 }
 
@@ -94,7 +101,7 @@ Found iterate(const BallEquations& equations, const BallVector& from) {
       }
     }
     const BallVector change = times(found.inverse, f);
-    const double size = relative_size(change, sizes_of(found.x));
+    const double size = relative_size(change, sizes_of(found.x, equations.degrees_of_freedom));
     for (std::size_t i = 0; i < f.size(); ++i) found.x[i] = (found.x[i] - change[i]).midpoint();
     // What is small and no longer decreases is the rounding of these digits.
     if (size <= done || (size < close * close && size > 0.5 * before)) {
@@ -150,7 +157,7 @@ BallSolution solve_in_balls(const BallEquations& equations, const BallVector& fr
     return result;
   }
   const BallVector& x = found.x;
-  const Numbers sizes = sizes_of(x);
+  const Numbers sizes = sizes_of(x, equations.degrees_of_freedom);
   const BallVector change = times(found.inverse, equations.residual(x));
   if (!all_finite(change)) {
     result.failure = "H has no gradient at the solution";

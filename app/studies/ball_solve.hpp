@@ -20,6 +20,9 @@ using BallMatrix = std::map<std::pair<int, int>, Ball>;  // what is absent is 0
 struct BallEquations {
   std::function<BallVector(std::span<const Ball>)> residual;
   std::function<BallMatrix(std::span<const Ball>)> jacobian;
+  // If the unknowns are states one after the other, of so many coordinates and as many momenta:
+  // what is small among the ones need not be among the others, whose units are different.
+  int degrees_of_freedom = 0;
 };
 
 struct BallSolution {

@@ -131,7 +131,8 @@ BallSolution BallStep::member_step(const Member& member, const Ball& h, const Ba
         }
         for (int i = 0; i < size; ++i) result[{i, i}] += Ball(1);
         return result;
-      }};
+      },
+      size / 2};
   BallSolution solution = solve(equations, from, computed != nullptr);
   if (!solution.failure.empty()) return solution;
   BallVector end = z;
@@ -191,7 +192,8 @@ BallSolution BallStep::stages_step(const RungeKutta& method, const BallVector& z
         }
         for (int i = 0; i < static_cast<int>(s * size); ++i) result[{i, i}] += Ball(1);
         return result;
-      }};
+      },
+      static_cast<int>(size / 2)};
   BallSolution solution = solve(equations, from, false);
   if (!solution.failure.empty()) {
     // Where a step is long the line leads astray.

@@ -8,6 +8,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "app/studies/natural_sizes.hpp"
+
 namespace hamgen::app {
 namespace {
 
@@ -35,7 +37,8 @@ Matrix deviations(Eigen::Index size, Eigen::Index count) {
 
 class Deviations {
  public:
-  explicit Deviations(const ChaosRequest& request)
+  // `energy` is what the terms of H are at the start.
+  Deviations(const ChaosRequest& request, double energy)
       : request_(request),
         plugin_(request.library->plugin()),
         size_(2 * plugin_.degrees_of_freedom),
@@ -43,6 +46,7 @@ class Deviations {
         state_(upper(request.start.state)),
         next_(state_),
         map_(size_, size_),
+        sizes_(natural_sizes(*request.library, request.start, energy)),
         columns_(deviations(size_, std::clamp<Eigen::Index>(request.deviations, 2, size_))) {
     if (plugin_.tangent == nullptr) throw std::invalid_argument("the plugin has no tangent map");
     if (request.spectrum) {
@@ -59,6 +63,10 @@ class Deviations {
     const auto is_number = [](double x) { return std::isfinite(x); };
     if (!map_.allFinite() || !std::ranges::all_of(next_, is_number) || !is_number(energy_ahead()))
       return runtime::Status::left_domain;
+
+    for (Eigen::Index i = 0; i < size_; ++i) {
+      for (Eigen::Index j = 0; j < size_; ++j) map_(i, j) *= size_at(j) / size_at(i);
+    }
     return {};
   }
   [[nodiscard]] double energy_ahead() const { return request_.library->energy(parameters_, next_); }
@@ -101,6 +109,8 @@ class Deviations {
   }
 
  private:
+  [[nodiscard]] double size_at(Eigen::Index i) const { return sizes_[static_cast<std::size_t>(i)]; }
+
   // Of the first deviation in this step.  Its growth is taken at the middle of the step.
   void grow(double logarithm) {
     length_ += logarithm;
@@ -130,7 +140,9 @@ class Deviations {
   const hamgen_plugin& plugin_;
   Eigen::Index size_;
   std::vector<double> parameters_, state_, next_;
-  Matrix map_, columns_;
+  Matrix map_;
+  std::vector<double> sizes_;  // of the state's components
+  Matrix columns_;
   Eigen::MatrixXd frame_;
   Eigen::VectorXd logarithms_;
   long steps_ = 0;
@@ -144,9 +156,9 @@ constexpr long kStepsOfAProgress = 1024;
 }  // namespace
 
 Chaos chaos(const ChaosRequest& request) {
-  Deviations deviations(request);
   const runtime::Judge judge(request.library, request.start.parameters, request.start.state,
                              request.start.defined_everywhere);
+  Deviations deviations(request, judge.energy_terms());
   Chaos result{.samples = {}, .spectrum = {}, .deviations = deviations.count()};
   result.energy_scale = judge.energy_terms();
   double limit = judge.jump_limit();

@@ -20,7 +20,8 @@ struct ChaosRequest {
   StopFlag stop = nullptr;
 };
 
-// At one time.  Exponents are in units of 1/time.
+// At one time.  Exponents are in units of 1/time.  Deviations have lengths in the natural sizes of
+// their components (natural_sizes.hpp): meters and kilograms do not decide what is long.
 struct ChaosSample {
   double time = 0.0;
   // ln(|w(t)|/|w(0)|)/t of a deviation w: goes to the largest Lyapunov exponent.

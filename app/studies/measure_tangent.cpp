@@ -13,10 +13,11 @@ namespace {
 
 // Solving for M leaves some 2n rounding errors in its entries, and M^T J M multiplies and adds two
 // of them: relative to the terms that are added that is far below this for the sizes that are
-// written out.
-constexpr double kRoundOff = 1e-13;
+// written out: 450 units of the last place.
+constexpr double kRoundOff = 1e-13;  // in double
 constexpr int kStates = 100;
-constexpr double kDifference = 1e-5;  // of a component's amplitude: error some 1e-10 on both sides
+// Of a component's amplitude: error some 1e-10 on both sides, in double.
+constexpr double kDifference = 1e-5;
 
 using Vector = std::vector<double>;
 
@@ -34,6 +35,7 @@ class TangentMeasurement {
       : step_(loaded.library->plugin()),
         start_(start),
         n_(static_cast<std::size_t>(step_.degrees_of_freedom)),
+        epsilon_(std::ldexp(1.0, 1 - std::min(step_.scalar_digits, 53))),
         matrix_(4 * n_ * n_),
         end_(2 * n_) {
     // Along the orbit, for what the scene starts at zero has a size as well.
@@ -78,10 +80,11 @@ class TangentMeasurement {
         failed_ == 0 ? "" : fmt::format(" ({} of them without a step)", failed_));
     if (failed_ == kStates)
       return {{"tangent map symplectic", Verdict::not_decided, "no step could be taken " + where}};
+    const double round_off = kRoundOff * doubles_of_epsilon();
     auto within = [&](const std::string& property, double value) {
       return Finding{
-          property, value <= kRoundOff ? Verdict::tested : Verdict::refuted,
-          fmt::format("at most {:.2e} {}; round-off is below {:.0e}", value, where, kRoundOff)};
+          property, value <= round_off ? Verdict::tested : Verdict::refuted,
+          fmt::format("at most {:.2e} {}; round-off is below {:.0e}", value, where, round_off)};
     };
     Proof proof{within("tangent map symplectic", defect_)};
     if (compared_ == 0) {
@@ -101,16 +104,20 @@ class TangentMeasurement {
   }
 
  private:
+  [[nodiscard]] double doubles_of_epsilon() const {
+    return epsilon_ / std::numeric_limits<double>::epsilon();
+  }
+
   // What rests but for rounding, as sin(pi) does, has no size of its own: it takes that of the
   // largest coordinate, or momentum, or of all if these are 0.  Such rounding is a few units of the
   // largest: up to 64 are taken for it.
   void fill_amplitude(std::size_t first) {
-    constexpr double kRest = 64 * std::numeric_limits<double>::epsilon();
+    const double rest = 64 * epsilon_;
     const std::span<double> part(amplitude_.data() + first, n_);
     const double all = std::max(*std::ranges::max_element(amplitude_), 1e-300);
     const double own = *std::ranges::max_element(part);
     const double most = own > 0 ? own : all;
-    for (double& a : part) a = a > kRest * most ? a : most;
+    for (double& a : part) a = a > rest * most ? a : most;
   }
 
   // A state of the orbit and the scene's parameters, each moved by up to a tenth.
@@ -164,8 +171,10 @@ class TangentMeasurement {
   // difference of the two; rounding of Z adds some units of its last place over d.
   void compare_with_differences(const Sample& z, const Vector& matrix) {
     const std::size_t size = 2 * n_;
+    // Both errors grow alike: c d^2, and epsilon over d.
+    const double relative = kDifference * std::cbrt(doubles_of_epsilon());
     for (std::size_t j = 0; j < size; ++j) {
-      const double d = kDifference * amplitude_[j];
+      const double d = relative * amplitude_[j];
       Vector quotient[2];
       for (const int factor : {1, 2}) {
         Sample up = z;
@@ -183,7 +192,7 @@ class TangentMeasurement {
       for (std::size_t i = 0; i < size; ++i) {
         const double scale = amplitude_[i] / amplitude_[j];
         const double error = std::abs(matrix[i * size + j] - quotient[0][i]) / scale;
-        const double rounding = 64 * std::numeric_limits<double>::epsilon() / kDifference;
+        const double rounding = 64 * epsilon_ / relative;
         const double bound = std::abs(quotient[1][i] - quotient[0][i]) / scale + rounding;
         difference_ = std::max(difference_, error);
         wrong_ = wrong_ || !(error <= bound);
@@ -194,6 +203,7 @@ class TangentMeasurement {
   const hamgen_plugin& step_;
   const runtime::InitialValues& start_;
   std::size_t n_;
+  double epsilon_;  // of the numbers that the step computes with, or of double where they have more
   Vector matrix_, end_;  // of the step taken last
   std::vector<Vector> orbit_;
   Vector amplitude_;

@@ -28,6 +28,7 @@ struct SectionRequest {
   runtime::InitialValues start;  // of the scene
   runtime::Direction direction = runtime::Direction::rising;
   double energy = 0.0;
+  std::vector<double> sizes = {};  // natural ones of the state's components; empty: all 1
   // Places in the state: of the variables of the axes, of the coordinate that is constant on the
   // surface with its value there, and of the momentum that gives the energy.
   std::size_t first = 0, second = 0, momentum = 0;

@@ -20,6 +20,10 @@ std::vector<double> rounded_values(const State& state) {
   return values;
 }
 
+double size_at(const SectionRequest& request, std::size_t place) {
+  return request.sizes.empty() ? 1.0 : request.sizes[place];
+}
+
 // H - energy with another momentum at its place.
 class EnergyOfMomentum {
  public:
@@ -66,25 +70,49 @@ class Region {
       : request_(request),
         x_(x),
         y_(y),
-        width_(std::max(1.0, 2 * std::abs(x))),
-        height_(std::max(1.0, 2 * std::abs(y))) {}
+        width_(first_half_side(size_at(request, request.first), x)),
+        height_(first_half_side(size_at(request, request.second), y)) {}
 
   [[nodiscard]] std::array<double, 4> rectangle() {
-    std::array<double, 4> found{};
-    for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
-      found = connected();
-      const bool wide = reaches_x_;
-      const bool high = reaches_y_;
-      if (!wide && !high) break;
-      if (wide) width_ *= 2;
-      if (high) height_ *= 2;
+    Side across{.length = &width_};
+    Side up{.length = &height_};
+    while (true) {
+      const std::array<double, 4> found = connected();
+      const bool wider = across.fit(reaches_x_, found[1] - found[0]);
+      const bool higher = up.fit(reaches_y_, found[3] - found[2]);
+      if ((!wider && !higher) || is_stopped(request_.stop)) return found;
     }
-    return found;
   }
 
  private:
   static constexpr int kCells = 48;
-  static constexpr int kMostDoublings = 8;
+
+  static double first_half_side(double size, double middle) {
+    return size == 1.0 ? std::max(1.0, 2 * std::abs(middle)) : size;
+  }
+
+  // Half a side of the grid, which is doubled while the region reaches it and, if it was not,
+  // halved while the region is a few cells, of which some may be on the other side of a barrier.
+  struct Side {
+    double* length;
+    int doublings = 0, halvings = 0;
+
+    bool fit(bool is_reached, double extent) {
+      constexpr int kMostDoublings = 8;
+      constexpr int kMostHalvings = 40;
+      if (is_reached && halvings == 0 && doublings < kMostDoublings) {
+        ++doublings;
+        *length *= 2;
+        return true;
+      }
+      if (!is_reached && doublings == 0 && halvings < kMostHalvings && extent < *length / 4) {
+        ++halvings;
+        *length /= 2;
+        return true;
+      }
+      return false;
+    }
+  };
 
   [[nodiscard]] double first(int i) const { return x_ + width_ * (2.0 * i / kCells - 1.0); }
   [[nodiscard]] double second(int j) const { return y_ + height_ * (2.0 * j / kCells - 1.0); }
@@ -135,13 +163,14 @@ double spread(int i, int base) {
 std::optional<State> with_energy(const SectionRequest& request, State state) {
   EnergyOfMomentum error(request, state);
   // H is least where its slope vanishes: by two slopes where it is a square, near there else.
+  const double size = size_at(request, request.momentum);
   const double at_zero = error.slope(0.0);
-  const double bend = error.slope(1.0) - at_zero;
+  const double bend = (error.slope(size) - at_zero) / size;
   const double least = bend > 0.0 ? -at_zero / bend : 0.0;
   const double below = error(least);
   if (!(below <= 0.0)) return std::nullopt;
   for (const double side : {1.0, -1.0}) {
-    double width = 1e-3 * std::max(1.0, std::abs(least));
+    double width = 1e-3 * std::max(size, std::abs(least));
     double value = error(least + side * width);
     for (int doubling = 0; doubling < 60 && value < 0.0; ++doubling) {
       width *= 2;
@@ -171,7 +200,7 @@ SectionStarts section_starts(const SectionRequest& request) {
   const std::array<double, 4> box = request.box ? *request.box : Region(request, x, y).rectangle();
   constexpr int kTriesForOne = 50;
   for (int i = 1; static_cast<int>(starts.states.size()) < request.orbits &&
-                  starts.tried < kTriesForOne * request.orbits;
+                  starts.tried < kTriesForOne * request.orbits && !is_stopped(request.stop);
        ++i) {
     ++starts.tried;
     State state = request.start.state;
@@ -184,7 +213,7 @@ SectionStarts section_starts(const SectionRequest& request) {
       ++starts.unreachable;
     }
   }
-  if (starts.states.empty())
+  if (starts.states.empty() && !is_stopped(request.stop))
     throw UsageError(fmt::format(
         "no momentum reaches H = {:.10g} from any of {} starting points of the section\nhelp: "
         "another --energy, or a rectangle of starting points around one that has it: --from",

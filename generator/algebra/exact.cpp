@@ -58,6 +58,8 @@ std::optional<Rational> parse_decimal(std::string_view literal) {
     digits += literal[i];
     if (fraction) --exponent;
   }
+  // Zero, whatever its exponent.
+  if (!digits.empty() && digits.find_first_not_of('0') == std::string::npos) return Rational(0);
   if (i < literal.size()) {
     ++i;
     if (i < literal.size() && literal[i] == '+') ++i;

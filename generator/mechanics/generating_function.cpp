@@ -237,6 +237,12 @@ void choose_hessian(GeneratingFunction& function, const Mechanics& mechanics,
   const long size = function.operations * static_cast<long>(z.size());
   const bool is_long = size > 4 * kMostOperations;
   if (wish == HessianWish::exact && size <= kMostOperations / 3) choices = {{function.order, 2.0}};
+  // Of a quadratic H K is quadratic too, and the equations are linear: they are solved once.
+  const bool is_quadratic = std::ranges::none_of(mechanics.hessian, [&](const auto& entry) {
+    const std::set<std::string> names = symbols(entry.second);
+    return std::ranges::any_of(names, [&](const auto& name) { return varying.contains(name); });
+  });
+  if (is_quadratic && !is_long) choices = {{function.order, 1.0}};
   double least = 0;
   const Row slopes_only = function.gradient;
   for (const HessianChoice& choice : choices) {

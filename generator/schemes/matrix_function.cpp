@@ -8,6 +8,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <boost/multiprecision/eigen.hpp>
 
+#include "generator/algebra/balance.hpp"
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/mechanics/mechanics.hpp"
@@ -250,6 +251,24 @@ void add_terms(const Matrix& a, const Cluster& cluster, MatrixFunction& result) 
       {-h() * imaginary, to_rational(Matrix((w * linear + s * turned) / modulus))});
 }
 
+Eigen::MatrixXd rounded(const RationalMatrix& a) {
+  const auto size = static_cast<Eigen::Index>(a.size());
+  Eigen::MatrixXd result(size, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j)
+      result(i, j) = to_double(a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+  }
+  return result;
+}
+
+Rational power_of_two(int exponent) {
+  Rational result = 1;
+  const auto bits = static_cast<mp_bitcnt_t>(std::abs(exponent));
+  if (exponent > 0) mpq_mul_2exp(result.get_mpq_t(), result.get_mpq_t(), bits);
+  if (exponent < 0) mpq_div_2exp(result.get_mpq_t(), result.get_mpq_t(), bits);
+  return result;
+}
+
 }  // namespace
 
 MatrixFunction gauge_function(const RationalMatrix& a) {
@@ -263,7 +282,21 @@ MatrixFunction gauge_function(const RationalMatrix& a) {
       matrix(i, j) = to_real(a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
     }
   }
+  // In units of the variables in which rows and columns are of one size, and back: what
+  // eigenvectors there are does not depend on units, how well they are told apart does.
+  const std::vector<int> units = balance(rounded(a));
+  const auto in_units = [&units](auto i, auto j) {
+    return units[static_cast<std::size_t>(j)] - units[static_cast<std::size_t>(i)];
+  };
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j) matrix(i, j) = ldexp(matrix(i, j), in_units(i, j));
+  }
   for (const Cluster& cluster : clusters(matrix * matrix)) add_terms(matrix, cluster, result);
+  for (MatrixTerm& term : result.terms) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      for (std::size_t j = 0; j < a.size(); ++j) term.matrix[i][j] *= power_of_two(-in_units(i, j));
+    }
+  }
   return result;
 }
 

@@ -64,7 +64,11 @@ GaugeBlock read_values(const Model& model, const GaugeFormula& formula, std::siz
     if (formula.is_matrix) require_count(formula, row.size(), "entries in a row", size);
     for (const GaugeFormula::Entry& entry : row) {
       require_names(entry.node, "--" + formula.option, entry.text, names);
-      block.entries.push_back(scheme_parameter(model, formula.option, entry.node));
+      try {
+        block.entries.push_back(scheme_parameter(model, formula.option, entry.node));
+      } catch (const ModelError& error) {  // its place is in the option's text
+        throw ModelError(error.diagnostics(), make_source("--" + formula.option, entry.text));
+      }
       block.words.push_back(to_text(entry.node));
     }
   }

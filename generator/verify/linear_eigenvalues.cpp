@@ -4,12 +4,43 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "generator/algebra/balance.hpp"
 
 namespace hamgen {
 
+namespace {
+
+Eigen::MatrixXd without(const Eigen::MatrixXd& m, Eigen::Index i) {
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index k = 0; k < m.rows(); ++k)
+    if (k != i) others.push_back(k);
+  return m(others, others);
+}
+
+}  // namespace
+
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix) {
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues();
-  return {values.begin(), values.end()};
+  Eigen::MatrixXd rest = matrix;
+  std::vector<std::complex<double>> found;
+  // Where a column or a row is empty beside the diagonal, its element there is an eigenvalue, and
+  // what stands in the other one, of whatever size, touches none.
+  for (Eigen::Index i = 0; i < rest.rows();) {
+    const Beside beside = beside_diagonal(rest, i);
+    if (beside.column > 0.0 && beside.row > 0.0) {
+      ++i;
+      continue;
+    }
+    found.emplace_back(rest(i, i));
+    rest = without(rest, i);
+    i = 0;
+  }
+  if (rest.rows() == 0) return found;
+  const Eigen::VectorXcd values =
+      Eigen::EigenSolver<Eigen::MatrixXd>(balanced(std::move(rest)), false).eigenvalues();
+  found.insert(found.end(), values.begin(), values.end());
+  return found;
 }
 
 double spectral_radius(const Eigen::MatrixXd& matrix) {
@@ -32,7 +63,8 @@ double margin_of(const Eigen::MatrixXd& m, bool symplectic) {
   return 1.0 - spectral_radius(m);
 }
 
-double margin_together(const Eigen::MatrixXd& m, int free_motions) {
+double margin_together(const Eigen::MatrixXd& matrix, int free_motions) {
+  const Eigen::MatrixXd m = balanced(matrix);
   if (!m.allFinite()) return -1.0;
   const Eigen::MatrixXd sum = m + m.inverse();
   if (!sum.allFinite()) return -1.0;

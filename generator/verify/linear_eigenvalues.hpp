@@ -17,6 +17,6 @@ namespace hamgen {
 // The same for more degrees of freedom, and 0 where rounding hides the answer.  The eigenvalues
 // lambda of a symplectic M are unimodular and semisimple if all lambda + 1/lambda, eigenvalues of
 // M + M^-1 that are there twice, are real, different and between -2 and 2.  Free motions have 2.
-[[nodiscard]] double margin_together(const Eigen::MatrixXd& m, int free_motions);
+[[nodiscard]] double margin_together(const Eigen::MatrixXd& matrix, int free_motions);
 
 }  // namespace hamgen

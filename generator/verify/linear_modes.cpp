@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/algebra/balance.hpp"
 #include "generator/verify/linear_eigenvalues.hpp"
 #include "generator/verify/linear_step.hpp"
 #include "generator/verify/rational_step.hpp"
@@ -87,7 +88,7 @@ LinearSpectrum linear_spectrum(const MatrixXd& s) {
     for (const double square : *positive) squares.emplace_back(-square);
   } else {
     zero = 1e-10;
-    const MatrixXd a = linear_flow(s);
+    const MatrixXd a = balanced(linear_flow(s));
     squares = eigenvalues(a * a);
     // Each is there twice.
     std::ranges::sort(squares, {}, [](const auto& x) { return std::pair(x.real(), x.imag()); });
@@ -110,7 +111,8 @@ LinearSpectrum linear_spectrum(const MatrixXd& s) {
     }
   }
   std::ranges::sort(spectrum.frequencies);
-  if (!positive) spectrum.resonant = has_jordan_block(linear_flow(s), spectrum.frequencies);
+  if (!positive)
+    spectrum.resonant = has_jordan_block(balanced(linear_flow(s)), spectrum.frequencies);
   return spectrum;
 }
 

@@ -159,10 +159,12 @@ class TextValue {
       ++at_;
       const bool negative = text_[at_] == '-';
       if (negative || text_[at_] == '+') ++at_;
+      // Of a number that is not 0 the language has no exponents of more digits.
       for (; at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9'; ++at_)
-        exponent = 10 * exponent + (text_[at_] - '0');
+        exponent = std::min(10 * exponent + (text_[at_] - '0'), 1000000L);
       if (negative) exponent = -exponent;
     }
+    if (digits == 0) return {precise(0), at_};
     return {precise(digits * power_of_ten(exponent - behind_point)), at_};
   }
 

@@ -30,6 +30,22 @@ TEST(CertifyCommand, SaysWhatIsProvedAndOfWhichSteps) {
   EXPECT_TRUE(text[4].starts_with("  unique ")) << text[4];
 }
 
+// Momenta of 1e-24 beside coordinates of 1e-6 are no rounding of these.
+TEST(CertifyCommand, KnowsTheUnitsOfCoordinatesAndMomenta) {
+  const Scratch scratch;
+  const std::string model =
+      scratch.write("m.ham",
+                    "coordinate x, y\nmomentum px, py\nparameter m = 6.6e-26\nparameter w = 6e6\n"
+                    "parameter k = 2.3e-28\n"
+                    "H = (px^2 + py^2)/(2*m) + m*w^2*(x^2 + y^2)/2 + k/abs(x - y)\n"
+                    "scene s { x = 3e-6; y = -4e-6; px = 1e-25; h = 1e-8; steps = 20 }\n");
+  for (const char* scheme : {"implicit-midpoint", "gauss-8"}) {
+    const json found = json::parse(certify(model, {"--scheme", scheme, "--json"}).out);
+    EXPECT_EQ(found["certified"], 20) << scheme;
+    EXPECT_EQ(found["failed"], 0) << scheme;
+  }
+}
+
 TEST(CertifyCommand, TellsTheFiguresAsJson) {
   const json found = json::parse(
       certify(models + "kepler.ham", {"--steps", "12", "--scheme", "rk4", "--json"}).out);
