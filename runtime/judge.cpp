@@ -114,11 +114,12 @@ double Judge::jump_limit() const { return kJump * energy_scale_; }
 
 std::optional<double> Judge::raised_limit(double limit, std::span<const double> state,
                                           double energy_error) const {
-  constexpr double small = 0.1;
   const double at_state = terms(state);
-  const bool has_scale = limit > 0.0;
-  if (has_scale && !(energy_error <= small * at_state)) return {};
-  return kJump * (has_scale ? energy_error : std::max(at_state, energy_error));
+  if (!(limit > 0.0)) return kJump * std::max(at_state, energy_error);
+  const bool is_driven = !clocks_.empty();
+  const double most = (is_driven ? 0.5 : 0.1) * at_state;
+  if (!(energy_error <= most)) return {};
+  return kJump * (is_driven ? at_state : energy_error);
 }
 
 bool Judge::keeps_energy(std::span<const double> state, double energy_error) const {

@@ -251,12 +251,11 @@ void add_terms(const Matrix& a, const Cluster& cluster, MatrixFunction& result) 
       {-h() * imaginary, to_rational(Matrix((w * linear + s * turned) / modulus))});
 }
 
-Eigen::MatrixXd rounded(const RationalMatrix& a) {
-  const auto size = static_cast<Eigen::Index>(a.size());
-  Eigen::MatrixXd result(size, size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    for (Eigen::Index j = 0; j < size; ++j)
-      result(i, j) = to_double(a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]);
+std::vector<std::vector<double>> rounded(const RationalMatrix& a) {
+  std::vector<std::vector<double>> result;
+  for (const auto& row : a) {
+    result.emplace_back();
+    for (const Rational& x : row) result.back().push_back(to_double(x));
   }
   return result;
 }

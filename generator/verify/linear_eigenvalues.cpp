@@ -19,7 +19,27 @@ Eigen::MatrixXd without(const Eigen::MatrixXd& m, Eigen::Index i) {
   return m(others, others);
 }
 
+// Is one of the elements besides that one not 0?
+template <class Line>
+bool has_other(const Line& line, Eigen::Index one) {
+  for (Eigen::Index k = 0; k < line.size(); ++k)
+    if (k != one && line(k) != 0.0) return true;
+  return false;
+}
+
 }  // namespace
+
+Eigen::MatrixXd balanced(Eigen::MatrixXd m) {
+  std::vector<std::vector<double>> rows;
+  for (const auto& row : m.rowwise()) rows.emplace_back(row.begin(), row.end());
+  const std::vector<int> exponents = balance(std::move(rows));
+  for (Eigen::Index i = 0; i < m.rows(); ++i) {
+    const int exponent = exponents[static_cast<std::size_t>(i)];
+    m.col(i) *= std::ldexp(1.0, exponent);
+    m.row(i) *= std::ldexp(1.0, -exponent);
+  }
+  return m;
+}
 
 std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix) {
   Eigen::MatrixXd rest = matrix;
@@ -27,8 +47,7 @@ std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix) {
   // Where a column or a row is empty beside the diagonal, its element there is an eigenvalue, and
   // what stands in the other one, of whatever size, touches none.
   for (Eigen::Index i = 0; i < rest.rows();) {
-    const Beside beside = beside_diagonal(rest, i);
-    if (beside.column > 0.0 && beside.row > 0.0) {
+    if (has_other(rest.col(i), i) && has_other(rest.row(i), i)) {
       ++i;
       continue;
     }

@@ -8,6 +8,8 @@
 
 namespace hamgen {
 
+// D^-1 M D of balance().
+[[nodiscard]] Eigen::MatrixXd balanced(Eigen::MatrixXd m);
 [[nodiscard]] std::vector<std::complex<double>> eigenvalues(const Eigen::MatrixXd& matrix);
 // The largest of the eigenvalues' absolute values.
 [[nodiscard]] double spectral_radius(const Eigen::MatrixXd& matrix);

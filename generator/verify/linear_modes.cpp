@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/algebra/balance.hpp"
 #include "generator/verify/linear_eigenvalues.hpp"
 #include "generator/verify/linear_step.hpp"
 #include "generator/verify/rational_step.hpp"

@@ -41,7 +41,15 @@ RationalPolynomial polynomial_in(const GiNaC::ex& e, const GiNaC::ex& h) {
 }  // namespace
 
 bool is_short(const Rational& value) {
-  return mpz_sizeinbase(value.get_den_mpz_t(), 2) + mpz_sizeinbase(value.get_num_mpz_t(), 2) <= 150;
+  // Powers of ten are no digits: 9.109e-31 is as short as 9.109.
+  const auto bits = [](Integer x) {
+    for (const unsigned long prime : {2UL, 5UL}) {
+      const Integer factor = prime;
+      mpz_remove(x.get_mpz_t(), x.get_mpz_t(), factor.get_mpz_t());
+    }
+    return mpz_sizeinbase(x.get_mpz_t(), 2);
+  };
+  return sgn(value) == 0 || bits(value.get_num()) + bits(value.get_den()) <= 150;
 }
 
 ExactMatrix linear_flow(const ExactMatrix& s) {

@@ -146,6 +146,19 @@ TEST(Units, OfTimeDoNotCountAsFar) {
   EXPECT_EQ(result.err.find("escape"), std::string::npos) << result.err;
 }
 
+// Driven from rest an orbit has no scale of energy but that of where it comes to.
+TEST(Units, OfEnergyAreNotThoseOfRest) {
+  const Scratch scratch;
+  const std::string model = scratch.write(
+      "m.ham",
+      "coordinate q\nmomentum p\ntime t\nH = p^2/2 + q^2/2 + q^4/8 - 0.3*q*sin(1.1*t)\n"
+      "scene s { h = 0.5; steps = 400 }\n");
+  for (const char* q : {"q=0", "q=1e-9", "q=0.5"}) {
+    const Result result = hamgen({"run", model, "--initial", q, "--quiet", "--interpret"});
+    EXPECT_EQ(result.status, 0) << q << result.err;
+  }
+}
+
 // Zero has no size, whatever its exponent is.
 TEST(Units, OfZeroAreNone) {
   const Scratch scratch;

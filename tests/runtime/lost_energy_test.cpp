@@ -50,7 +50,8 @@ double energy_lost(const double*, const double*, const double*, const double*, d
 }
 
 void gradient_lost(const double*, const double*, double* gradient) {
-  gradient[0] = gradient[1] = 1;
+  gradient[0] = 1;
+  gradient[1] = 2;  // with 1 q would be the time
 }
 
 const hamgen_plugin lost_energy = {.version = HAMGEN_PLUGIN_VERSION,
