@@ -88,6 +88,11 @@ MethodOptions with_run_time_members(MethodOptions method, const std::vector<Stre
     const bool varied = std::ranges::any_of(
         axes, [name = std::string(name)](const auto& axis) { return axis.label == name; });
     if (!varied || mentions_word(texts, name)) continue;
+    if (!method.scheme.empty())
+      throw UsageError(
+          fmt::format("--vary {}: of a member of the family, and --scheme {} is another method\n"
+                      "help: leave one out",
+                      name, method.scheme));
     if (!value->empty())
       throw UsageError(
           fmt::format("--vary {0} and --{0} {1}: both choose {0}\nhelp: leave one out, "

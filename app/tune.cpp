@@ -75,7 +75,7 @@ TuneRequest tune_request(const TuneOptions& options) {
   if (!(steps > 0.0) || steps > 1e9)
     throw UsageError(
         fmt::format("a time of {:g} with h = {:g} makes {:g} steps\n"
-                    "help: give another --time or --h",
+                    "help: give another --time, --steps or --h",
                     to_double(request.time), to_double(h), steps));
   request.steps = std::max(1L, std::lround(steps));
   if (is_own) request.steps = std::min(request.steps, kMostTuningSteps);

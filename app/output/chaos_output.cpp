@@ -73,9 +73,13 @@ std::string frequencies_text(const std::vector<DegreeFrequencies>& degrees,
                              const ChaosTitle& title) {
   std::string text;
   for (std::size_t i = 0; i < degrees.size(); ++i) {
-    text += fmt::format(
-        "  frequencies of {} (change from the first part of the time to the last {:.1e})\n",
-        title.coordinates[i], degrees[i].change);
+    const DegreeFrequencies& degree = degrees[i];
+    text += fmt::format("  frequencies of {}", title.coordinates[i]);
+    if (degree.change)
+      text += fmt::format(" (change from the first part of the time to the last {:.1e})\n",
+                          *degree.change);
+    else
+      text += ": so few steps have none\n";
     double largest = 0.0;
     for (const Harmonic& harmonic : degrees[i].harmonics)
       largest = std::max(largest, std::abs(harmonic.frequency));
@@ -121,7 +125,8 @@ std::string chaos_json(const Chaos& chaos, const std::vector<DegreeFrequencies>&
       harmonics.push_back({{"frequency", each.frequency},
                            {"amplitude", std::abs(each.amplitude)},
                            {"phase", std::arg(each.amplitude)}});
-    frequencies[title.coordinates[i]] = {{"harmonics", harmonics}, {"change", degrees[i].change}};
+    const ChaosJson change = degrees[i].change ? ChaosJson(*degrees[i].change) : ChaosJson();
+    frequencies[title.coordinates[i]] = {{"harmonics", harmonics}, {"change", change}};
   }
   return json_document({{"model", title.model},
                         {"scene", title.scene},

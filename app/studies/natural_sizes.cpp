@@ -44,9 +44,13 @@ std::optional<double> size_of(ChangeOfEnergy& change, std::size_t component, dou
   const auto reaches = [&](int exponent) {
     return change.by(component, std::ldexp(1.0, exponent)) >= kPart * scale;
   };
+  // One by one at first, for H may be periodic; where it grows leaps find the same.
+  constexpr int kNear = 8;
+  constexpr int kLeap = 16;
   int exponent = 0;
-  while (exponent < kLargestExponent && !reaches(exponent)) ++exponent;
-  if (exponent == kLargestExponent) return std::nullopt;
+  while (exponent < kLargestExponent && !reaches(exponent))
+    exponent += exponent < kNear ? 1 : kLeap;
+  if (exponent >= kLargestExponent) return std::nullopt;
   while (exponent > -kLargestExponent && reaches(exponent - 1)) --exponent;
   if (std::abs(exponent) <= kNearOne) return 1.0;
   return std::ldexp(1.0, exponent);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/studies/frequencies.hpp"
@@ -13,8 +14,8 @@ namespace hamgen::app {
 struct DegreeFrequencies {
   std::vector<Harmonic> harmonics;  // of q + i p
   // The largest one's frequency in the last half of so many steps less that in the first: rounding
-  // on a regular orbit, diffusion on a chaotic one.
-  double change = 0.0;
+  // on a regular orbit, diffusion on a chaotic one.  Empty where there are too few steps for it.
+  std::optional<double> change = {};
 };
 
 // Of an orbit of `steps` steps: of the first 65536 of them, or all.  Empty where the orbit ends

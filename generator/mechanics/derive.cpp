@@ -83,7 +83,7 @@ auto with_place(const Model& model, const Span& span, const Work& work) {
   } catch (const std::domain_error& error) {
     throw ModelError({{.severity = Severity::error,
                        .span = span,
-                       .message = fmt::format("undefined or not real: {}", error.what()),
+                       .message = fmt::format("undefined or not real: {}", reason_of(error)),
                        .help = "it, or a derivative of it, has no real value at any state"}},
                      model.source);
   } catch (const OverBudget& error) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "generator/algebra/evaluate.hpp"
 #include "generator/algebra/ginac_functions.hpp"
@@ -13,6 +14,13 @@
 #include "generator/mechanics/mechanics.hpp"
 
 namespace hamgen {
+
+std::string_view reason_of(const std::exception& error) {
+  std::string_view text = error.what();
+  const std::size_t name = text.find("(): ");
+  if (name != text.npos) text.remove_prefix(name + 4);
+  return text;
+}
 
 namespace {
 
@@ -109,7 +117,7 @@ GiNaC::ex TreeConverter::convert(const NodePtr& node, const Indices& indices) {
   } catch (const GiNaC::pole_error&) {
     fail(node->span, "division by zero", "this is undefined for every state");
   } catch (const std::exception& error) {
-    fail(node->span, fmt::format("undefined or not real: {}", error.what()));
+    fail(node->span, fmt::format("undefined or not real: {}", reason_of(error)));
   }
 }
 

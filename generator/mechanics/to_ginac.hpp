@@ -3,18 +3,23 @@
 
 #include <ginac/ginac.h>
 
+#include <exception>
 #include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/language/constant.hpp"
 #include "generator/language/model.hpp"
 
 namespace hamgen {
+
+// What GiNaC says, "division by zero", without the name of its function, "power::eval(): ".
+[[nodiscard]] std::string_view reason_of(const std::exception& error);
 
 class TreeConverter {
  public:

@@ -243,6 +243,16 @@ TEST(Frequencies, OfAQuasiPeriodicSignalAreFound) {
   }
 }
 
+TEST(Frequencies, OfTwoStepsAreNone) {
+  const std::string model = std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/pendulum.ham";
+  const std::vector<std::string> words = {"chaos", model, "--frequencies", "3", "--steps", "2"};
+  EXPECT_NE(hamgen(words).out.find("so few steps have none"), std::string::npos);
+  std::vector<std::string> as_json = words;
+  as_json.emplace_back("--json");
+  const auto found = nlohmann::json::parse(hamgen(as_json).out);
+  EXPECT_TRUE(found["frequencies"]["q"]["change"].is_null());
+}
+
 TEST(Frequencies, OfNothingAreNone) {
   const std::vector<Complex> signal(256, Complex(0));
   EXPECT_TRUE(app::leading_harmonics(signal, 0.1, 3).empty());

@@ -88,6 +88,21 @@ TEST(EarlyRefusal, OfWhatWouldBePassedOver) {
   }
 }
 
+// A message has the words of the command.
+TEST(EarlyRefusal, NamesTheOptionsThatWereGiven) {
+  const Scratch scratch;
+  const std::string model = scratch.write("m.ham", kModel);
+  const Result stress = hamgen({"stress", model, "--vary", "alpha=0:1:2", "--scheme", "rk4"});
+  EXPECT_EQ(stress.status, 2);
+  EXPECT_NE(stress.err.find("--vary alpha"), std::string::npos) << stress.err;
+  EXPECT_EQ(stress.err.find("--alpha"), std::string::npos) << stress.err;
+  const std::string zero =
+      scratch.write("z.ham", "coordinate q\nmomentum p\nH = 0^p + p^2\nscene s { q = 1 }\n");
+  const Result power = hamgen({"check", zero});
+  EXPECT_EQ(power.status, 3);
+  EXPECT_EQ(power.err.find("eval()"), std::string::npos) << power.err;
+}
+
 // A mistake is shown in the text that it is in.
 TEST(EarlyRefusal, OfAGaugeThatHasNoValue) {
   const Scratch scratch;
