@@ -188,7 +188,7 @@ TEST(Tune, RefusesWhatMakesNoSense) {
     EXPECT_EQ(result.out, "");
   };
   refused({kPendulum, "--gauge-form", "round"}, "there are scalar, diagonal and matrix");
-  refused({kPendulum, "--time", "0"}, "give another --time or --h");
+  refused({kPendulum, "--time", "0"}, "give another --time, --steps or --h");
   refused({kPendulum, "--time", "-10"}, "go in opposite directions");
   refused({kPendulum, "--samples", "2"}, "--samples 2");
   refused({kHenonHeiles, "--map", "m.png", "--gauge-form", "matrix"}, "--gauge-form scalar");
