@@ -52,10 +52,10 @@ BallVector times(const std::vector<Numbers>& y, const BallVector& f) {
 }
 
 // The sizes that the unknowns are measured by: exact numbers above 0.
-Numbers sizes_of(const BallVector& x, int degrees_of_freedom) {
-  const auto n = static_cast<std::size_t>(degrees_of_freedom);
+Numbers sizes_of(const BallVector& x, const BallEquations& equations) {
+  const auto n = static_cast<std::size_t>(equations.degrees_of_freedom);
   const auto is_momentum = [n](std::size_t i) { return n > 0 && i / n % 2 == 1; };
-  double largest[2] = {0.0, 0.0};  // of coordinates, of momenta
+  std::array<double, 2> largest = equations.largest;
   for (std::size_t i = 0; i < x.size(); ++i)
     largest[is_momentum(i)] = std::max(largest[is_momentum(i)], std::fabs(x[i].nearest()));
   const double either = std::max(largest[0], largest[1]);
@@ -101,7 +101,7 @@ Found iterate(const BallEquations& equations, const BallVector& from) {
       }
     }
     const BallVector change = times(found.inverse, f);
-    const double size = relative_size(change, sizes_of(found.x, equations.degrees_of_freedom));
+    const double size = relative_size(change, sizes_of(found.x, equations));
     for (std::size_t i = 0; i < f.size(); ++i) found.x[i] = (found.x[i] - change[i]).midpoint();
     // What is small and no longer decreases is the rounding of these digits.
     if (size <= done || (size < close * close && size > 0.5 * before)) {
@@ -157,7 +157,7 @@ BallSolution solve_in_balls(const BallEquations& equations, const BallVector& fr
     return result;
   }
   const BallVector& x = found.x;
-  const Numbers sizes = sizes_of(x, equations.degrees_of_freedom);
+  const Numbers sizes = sizes_of(x, equations);
   const BallVector change = times(found.inverse, equations.residual(x));
   if (!all_finite(change)) {
     result.failure = "H has no gradient at the solution";

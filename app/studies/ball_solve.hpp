@@ -1,6 +1,7 @@
 // Equations with a proof that they have a solution: Krawczyk's interval Newton method.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -23,6 +24,7 @@ struct BallEquations {
   // If the unknowns are states one after the other, of so many coordinates and as many momenta:
   // what is small among the ones need not be among the others, whose units are different.
   int degrees_of_freedom = 0;
+  std::array<double, 2> largest = {};  // a coordinate and a momentum there have been before
 };
 
 struct BallSolution {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/studies/ball_expression.hpp"
 #include "generator/base/diagnostic.hpp"
@@ -93,8 +94,13 @@ Ball BallStep::number(const Expression& e, const Ball& h) const {
   return evaluate_in_balls(e, values, h.bits());
 }
 
-BallSolution BallStep::solve(const BallEquations& equations, const BallVector& from,
-                             bool must_contain) {
+BallSolution BallStep::solve(BallEquations equations, const BallVector& from, bool must_contain) {
+  const auto n = static_cast<std::size_t>(equations.degrees_of_freedom);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    double& largest = largest_[i / n % 2];
+    largest = std::max(largest, std::fabs(from[i].nearest()));
+  }
+  equations.largest = largest_;
   BallSolution solution = solve_in_balls(equations, from, must_contain, 8.0 * radius_);
   if (solution.failure.empty()) radius_ = std::min(solution.radius, 0.125);
   return solution;

@@ -1,6 +1,7 @@
 // The exact map of a method, enclosed in balls: its equations are solved, from the model.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -35,7 +36,7 @@ class BallStep {
   [[nodiscard]] BallSolution split_step(const Splitting& method, const BallVector& z) const;
   [[nodiscard]] BallSolution compose(const Composition& method, const BallVector& z);
 
-  [[nodiscard]] BallSolution solve(const BallEquations& equations, const BallVector& from,
+  [[nodiscard]] BallSolution solve(BallEquations equations, const BallVector& from,
                                    bool must_contain);
   // J grad H; not finite where H or its gradient has no value.
   [[nodiscard]] BallVector field(std::span<const Ball> z) const;
@@ -45,7 +46,8 @@ class BallStep {
   const Scheme& scheme_;
   std::map<std::string, Ball> values_;
   Ball h_;
-  double radius_ = 0.125;  // of uniqueness, that of the step before
+  double radius_ = 0.125;               // of uniqueness, that of the step before
+  std::array<double, 2> largest_ = {};  // coordinate and momentum so far
 };
 
 }  // namespace hamgen::app
