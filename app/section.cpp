@@ -20,6 +20,7 @@
 #include "app/studies/load_integrator.hpp"
 #include "app/studies/natural_sizes.hpp"
 #include "app/studies/scheme_spec.hpp"
+#include "app/studies/section_starts.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/base/pieces.hpp"
 #include "runtime/atomic_file.hpp"
@@ -270,6 +271,11 @@ int run_section(const SectionOptions& options) {
   const runtime::Judge judge(request.library, request.start.parameters, request.start.state, false);
   request.sizes = natural_sizes(*request.library, request.start,
                                 std::max(judge.energy_terms(), std::abs(request.energy)));
+  // H may have constants beside it, of whatever size.
+  if (request.orbits > 0) {
+    if (const double moves = energy_of_momentum(request); moves > 0.0)
+      request.sizes = natural_sizes(*request.library, request.start, moves);
+  }
   request.steps = *scene.steps;
   Work work(progress_bars(options.quiet), "section", std::max(1, request.orbits));
   request.on_progress = [&work](int done, int) { work.tell(done); };

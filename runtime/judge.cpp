@@ -63,16 +63,15 @@ double energy_of_sizes(std::span<const double> state, std::span<const double> gr
 // The coordinates that move by 1 in a unit of time whatever the state is, as that of `time t` does:
 // how far they are says nothing of the orbit.
 std::vector<std::size_t> clocks(const Library& library, const std::vector<double>& parameters,
-                                std::vector<double> state) {
+                                const std::vector<double>& state) {
   const std::size_t n = state.size() / 2;
-  std::vector<std::size_t> found;
+  std::vector<double> elsewhere;
+  for (const double value : state) elsewhere.push_back(1.375 * value + 0.625);
   const std::vector<double> here = library.gradient(parameters, state);
+  const std::vector<double> there = library.gradient(parameters, elsewhere);
+  std::vector<std::size_t> found;
   for (std::size_t i = 0; i < n; ++i) {
-    if (here[n + i] != 1.0) continue;
-    const double before = state[n + i];
-    state[n + i] = 2.0 * before + 1.0;
-    if (library.gradient(parameters, state)[n + i] == 1.0) found.push_back(i);
-    state[n + i] = before;
+    if (here[n + i] == 1.0 && there[n + i] == 1.0) found.push_back(i);
   }
   return found;
 }
@@ -114,12 +113,11 @@ double Judge::jump_limit() const { return kJump * energy_scale_; }
 
 std::optional<double> Judge::raised_limit(double limit, std::span<const double> state,
                                           double energy_error) const {
+  constexpr double small = 0.1;
   const double at_state = terms(state);
-  if (!(limit > 0.0)) return kJump * std::max(at_state, energy_error);
-  const bool is_driven = !clocks_.empty();
-  const double most = (is_driven ? 0.5 : 0.1) * at_state;
-  if (!(energy_error <= most)) return {};
-  return kJump * (is_driven ? at_state : energy_error);
+  const bool has_scale = limit > 0.0;
+  if (has_scale && !(energy_error <= small * at_state)) return {};
+  return kJump * (has_scale ? energy_error : std::max(at_state, energy_error));
 }
 
 bool Judge::keeps_energy(std::span<const double> state, double energy_error) const {

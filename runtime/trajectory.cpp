@@ -99,8 +99,6 @@ double error_of(const EnergyRange& energy, const Wide& initial) {
 // less than a tenth of the terms of H at that state: an orbit may begin next to an equilibrium
 // where all of them vanish, and go far.  Then the limit is ten times that error from there on.  An
 // orbit that begins with no scale at all, as at rest in the origin, gets that of its first terms.
-// One that is driven has no scale of its start: errors are held against half of the terms where it
-// comes to, which then are the scale.
 //
 // A call of the plugin tells the range of the energy only.  Where that is beyond the limit, its
 // steps are repeated one by one.

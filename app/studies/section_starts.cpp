@@ -158,15 +158,24 @@ double spread(int i, int base) {
   return result;
 }
 
+// Where H is least: where its slope vanishes, by two slopes where it is a square, near there else.
+double least_momentum(EnergyOfMomentum& error, double size) {
+  const double at_zero = error.slope(0.0);
+  const double bend = (error.slope(size) - at_zero) / size;
+  return bend > 0.0 ? -at_zero / bend : 0.0;
+}
+
 }  // namespace
+
+double energy_of_momentum(const SectionRequest& request) {
+  EnergyOfMomentum error(request, request.start.state);
+  return std::max(0.0, -error(least_momentum(error, size_at(request, request.momentum))));
+}
 
 std::optional<State> with_energy(const SectionRequest& request, State state) {
   EnergyOfMomentum error(request, state);
-  // H is least where its slope vanishes: by two slopes where it is a square, near there else.
   const double size = size_at(request, request.momentum);
-  const double at_zero = error.slope(0.0);
-  const double bend = (error.slope(size) - at_zero) / size;
-  const double least = bend > 0.0 ? -at_zero / bend : 0.0;
+  const double least = least_momentum(error, size);
   const double below = error(least);
   if (!(below <= 0.0)) return std::nullopt;
   for (const double side : {1.0, -1.0}) {
