@@ -49,6 +49,11 @@ bool is_short(const Rational& value) {
     }
     return mpz_sizeinbase(x.get_mpz_t(), 2);
   };
+  // What is computed with them has all their bits.
+  constexpr std::size_t kMostBits = 400;
+  const std::size_t whole =
+      mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
+  if (whole > kMostBits) return false;
   return sgn(value) == 0 || bits(value.get_num()) + bits(value.get_den()) <= 150;
 }
 
