@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -268,10 +267,7 @@ int run_section(const SectionOptions& options) {
   request.direction = direction;
   request.energy =
       energy.value_or(loaded.library->energy(request.start.parameters, request.start.state).hi);
-  const runtime::Judge judge(request.library, request.start.parameters, request.start.state, false);
-  request.sizes = natural_sizes(*request.library, request.start,
-                                std::max(judge.energy_terms(), std::abs(request.energy)));
-  // H may have constants beside it, of whatever size.
+  request.sizes = natural_sizes(*request.library, request.start);
   if (request.orbits > 0) {
     if (const double moves = energy_of_momentum(request); moves > 0.0)
       request.sizes = natural_sizes(*request.library, request.start, moves);

@@ -202,9 +202,8 @@ int verify(const VerifyOptions& options) {
         "DIRECTORY`, and add --emitted FILE");
   if (!options.format.empty() && !options.emitted.empty())
     throw UsageError(
-        fmt::format("--format {}: of a text that would be written, and --emitted reads one that "
-                    "was\nhelp: leave "
-                    "out one of them",
+        fmt::format("--format {}: of a text that would be written, and --emitted reads one that is "
+                    "there\nhelp: leave out one of them",
                     options.format));
   require_apart("--certificate", options.certificate, options.method.model, "the model");
   require_apart("--certificate", options.certificate, options.emitted, "the header of --emitted");

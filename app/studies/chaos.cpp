@@ -37,8 +37,7 @@ Matrix deviations(Eigen::Index size, Eigen::Index count) {
 
 class Deviations {
  public:
-  // `energy` is what the terms of H are at the start.
-  Deviations(const ChaosRequest& request, double energy)
+  explicit Deviations(const ChaosRequest& request)
       : request_(request),
         plugin_(request.library->plugin()),
         size_(2 * plugin_.degrees_of_freedom),
@@ -46,7 +45,7 @@ class Deviations {
         state_(upper(request.start.state)),
         next_(state_),
         map_(size_, size_),
-        sizes_(natural_sizes(*request.library, request.start, energy)),
+        sizes_(natural_sizes(*request.library, request.start)),
         columns_(deviations(size_, std::clamp<Eigen::Index>(request.deviations, 2, size_))) {
     if (plugin_.tangent == nullptr) throw std::invalid_argument("the plugin has no tangent map");
     if (request.spectrum) {
@@ -63,7 +62,7 @@ class Deviations {
     const auto is_number = [](double x) { return std::isfinite(x); };
     if (!map_.allFinite() || !std::ranges::all_of(next_, is_number) || !is_number(energy_ahead()))
       return runtime::Status::left_domain;
-
+    // In units of the sizes.
     for (Eigen::Index i = 0; i < size_; ++i) {
       for (Eigen::Index j = 0; j < size_; ++j) map_(i, j) *= size_at(j) / size_at(i);
     }
@@ -156,9 +155,9 @@ constexpr long kStepsOfAProgress = 1024;
 }  // namespace
 
 Chaos chaos(const ChaosRequest& request) {
+  Deviations deviations(request);
   const runtime::Judge judge(request.library, request.start.parameters, request.start.state,
                              request.start.defined_everywhere);
-  Deviations deviations(request, judge.energy_terms());
   Chaos result{.samples = {}, .spectrum = {}, .deviations = deviations.count()};
   result.energy_scale = judge.energy_terms();
   double limit = judge.jump_limit();

@@ -52,8 +52,19 @@ std::optional<double> size_of(ChangeOfEnergy& change, std::size_t component, dou
     exponent += exponent < kNear ? 1 : kLeap;
   if (exponent >= kLargestExponent) return std::nullopt;
   while (exponent > -kLargestExponent && reaches(exponent - 1)) --exponent;
-  if (std::abs(exponent) <= kNearOne) return 1.0;
   return std::ldexp(1.0, exponent);
+}
+
+double one_if_near(double size) {
+  const int exponent = std::isfinite(size) && size > 0.0 ? std::ilogb(size) : 0;
+  return std::abs(exponent) <= kNearOne ? 1.0 : std::ldexp(1.0, exponent);
+}
+
+// |x g|/2 of n components from this one on.
+double half_product(const std::vector<double>& x, const std::vector<double>& g, std::size_t first) {
+  double sum = 0.0;
+  for (std::size_t i = first; i < first + x.size() / 2; ++i) sum += x[i] * g[i];
+  return std::abs(sum) / 2;
 }
 
 }  // namespace
@@ -64,20 +75,29 @@ std::vector<double> natural_sizes(const runtime::Library& library,
   if (!(energy > 0.0) || !std::isfinite(energy)) return sizes;
   ChangeOfEnergy change(library, start);
   const std::size_t n = sizes.size() / 2;
-  for (const std::size_t first : {std::size_t{0}, n}) {
-    double largest = 0.0;
-    std::vector<std::size_t> unknown;
-    for (std::size_t i = first; i < first + n; ++i) {
-      if (const std::optional<double> size = size_of(change, i, energy)) {
-        sizes[i] = *size;
-        largest = std::max(largest, *size);
-      } else {
-        unknown.push_back(i);
-      }
-    }
-    for (const std::size_t i : unknown) sizes[i] = largest > 0.0 ? largest : 1.0;
+  std::vector<std::optional<double>> found;
+  for (std::size_t i = 0; i < 2 * n; ++i) found.push_back(size_of(change, i, energy));
+  double action = 0.0;  // q times p, whatever the units of the two are
+  for (std::size_t i = 0; i < n; ++i) {
+    if (found[i] && found[n + i]) action = std::max(action, *found[i] * *found[n + i]);
+  }
+  for (std::size_t i = 0; i < 2 * n; ++i) {
+    const std::optional<double>& partner = found[i < n ? i + n : i - n];
+    sizes[i] = one_if_near(found[i].value_or(partner && action > 0.0 ? action / *partner : 1.0));
   }
   return sizes;
+}
+
+std::vector<double> natural_sizes(const runtime::Library& library,
+                                  const runtime::InitialValues& start) {
+  std::vector<double> state;
+  for (const runtime::Wide& x : start.state) state.push_back(x.hi);
+  std::vector<double> parameters;
+  for (const runtime::Wide& x : start.parameters) parameters.push_back(x.hi);
+  const std::vector<double> gradient = library.gradient(parameters, state);
+  return natural_sizes(
+      library, start,
+      std::max(half_product(state, gradient, 0), half_product(state, gradient, state.size() / 2)));
 }
 
 }  // namespace hamgen::app

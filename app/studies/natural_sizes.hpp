@@ -9,10 +9,14 @@
 namespace hamgen::app {
 
 // For each component of the state (2n values: q then p) the least power of two by which it can be
-// changed, up or down, so that H changes by a quarter of `energy`, which its terms are at the
-// start; of one on which H does not depend so much the largest of its kind, else 1.  From 1/64 to
-// 64 they are 1: so are those of a model in units that suit it.
+// changed, up or down, so that H changes by a quarter of `energy`, which moves the orbit at its
+// start.  Where H does not depend on one as much, it is the action of the pair that has the
+// largest, over the size of its partner: an angle is no length.  From 1/64 to 64 sizes are 1: so
+// are those of a model in units that suit it; and all are where nothing moves.
 [[nodiscard]] std::vector<double> natural_sizes(const runtime::Library& library,
                                                 const runtime::InitialValues& start, double energy);
+// By the larger of |q H_q|/2 and |p H_p|/2 at the start, in which constants of H have no part.
+[[nodiscard]] std::vector<double> natural_sizes(const runtime::Library& library,
+                                                const runtime::InitialValues& start);
 
 }  // namespace hamgen::app

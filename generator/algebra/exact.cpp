@@ -58,17 +58,17 @@ std::optional<Rational> parse_decimal(std::string_view literal) {
     digits += literal[i];
     if (fraction) --exponent;
   }
-  // Zero, whatever its exponent.
-  if (!digits.empty() && digits.find_first_not_of('0') == std::string::npos) return Rational(0);
   if (i < literal.size()) {
     ++i;
     if (i < literal.size() && literal[i] == '+') ++i;
     long written = 0;
     const char* end = literal.data() + literal.size();
     const auto [stop, error] = std::from_chars(literal.data() + i, end, written);
-    if (error != std::errc{} || stop != end || std::abs(written) > largest_exponent) {
+    const bool is_number = error != std::errc::invalid_argument && stop == end;
+    const bool is_zero = digits.find_first_not_of('0') == std::string::npos;
+    if (is_number && is_zero && !digits.empty()) return Rational(0);  // whatever its exponent
+    if (!is_number || error != std::errc{} || std::abs(written) > largest_exponent)
       return std::nullopt;
-    }
     exponent += written;
   }
   if (digits.empty()) return std::nullopt;

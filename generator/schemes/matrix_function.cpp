@@ -10,6 +10,7 @@
 
 #include "generator/algebra/balance.hpp"
 #include "generator/algebra/from_ginac.hpp"
+#include "generator/algebra/scalar.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "generator/mechanics/mechanics.hpp"
 
@@ -257,14 +258,6 @@ std::vector<std::vector<double>> rounded(const RationalMatrix& a) {
     result.emplace_back();
     for (const Rational& x : row) result.back().push_back(to_double(x));
   }
-  return result;
-}
-
-Rational power_of_two(int exponent) {
-  Rational result = 1;
-  const auto bits = static_cast<mp_bitcnt_t>(std::abs(exponent));
-  if (exponent > 0) mpq_mul_2exp(result.get_mpq_t(), result.get_mpq_t(), bits);
-  if (exponent < 0) mpq_div_2exp(result.get_mpq_t(), result.get_mpq_t(), bits);
   return result;
 }
 

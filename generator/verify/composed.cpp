@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "generator/verify/zero_by_algebra.hpp"
 #include "generator/verify/precise.hpp"
 #include "generator/verify/proof.hpp"
 #include "generator/verify/words.hpp"
+#include "generator/verify/zero_by_algebra.hpp"
 
 namespace hamgen {
 

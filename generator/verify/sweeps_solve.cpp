@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "generator/verify/zero_by_algebra.hpp"
 #include "generator/verify/swept.hpp"
+#include "generator/verify/zero_by_algebra.hpp"
 
 namespace hamgen {
 

@@ -24,6 +24,11 @@ TEST(Exact, DecimalsAreReadExactly) {
   EXPECT_EQ(decimal("1e2"), Rational(100));
   EXPECT_EQ(decimal(".5"), Rational(1, 2));
   EXPECT_FALSE(parse_decimal("1e999999999").has_value());
+  EXPECT_EQ(decimal("0e999999999"), 0);
+  EXPECT_EQ(decimal("0.00e-99999999999999999999"), 0);
+  EXPECT_FALSE(parse_decimal("0e").has_value());
+  EXPECT_FALSE(parse_decimal("0e1x").has_value());
+  EXPECT_FALSE(parse_decimal("e5").has_value());
 }
 
 TEST(Exact, TheNearestDoubleIsTheOneTheCompilerChooses) {

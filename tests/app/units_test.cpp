@@ -94,6 +94,51 @@ TEST(Units, OfExponentsAreThoseOfTime) {
   }
 }
 
+// Deviations along the orbit of this text.
+json samples_of(const std::string& text) {
+  const Scratch scratch;
+  return found({"chaos", scratch.write("m.ham", text), "--json", "--quiet"})["samples"];
+}
+
+TEST(Units, OfDeviationsHaveNoConstant) {
+  const std::string text =
+      "coordinate x, y\nmomentum u, v\n"
+      "H = (u^2 + v^2 + x^2 + y^2)/2 + x^2*y - y^3/3";
+  const std::string scene = "\nscene s { y = -0.15; u = 0.4; h = 0.05; steps = 2000 }\n";
+  const json alone = samples_of(text + scene).back();
+  const json beside = samples_of(text + " + 1e6" + scene).back();
+  EXPECT_NEAR(beside["fli"].get<double>(), alone["fli"].get<double>(), 1e-6);
+  EXPECT_NEAR(beside["megno"].get<double>(), alone["megno"].get<double>(), 1e-6);
+}
+
+// A molecule with an angle that hardly changes its energy, in units of this length, mass and
+// frequency.
+std::string with_angle(double length, double mass, double frequency) {
+  return fmt::format(
+      "coordinate th, r\nmomentum L, p\nparameter a = {:.17g}\nparameter m = {:.17g}\n"
+      "parameter w = {:.17g}\n"
+      "H = p^2/(2*m) + L^2/(2*m*r^2) + m*w^2*(r - 2*a)^2*(1 + 0.3*cos(th))/2\n"
+      "scene s {{ th = 1; r = 2.1*a; L = m*w*a^2; p = m*w*a/10; h = 0.05/w; steps = 200000 }}\n",
+      length, mass, frequency);
+}
+
+// On a regular orbit MEGNO goes to 2 about as 1/t, whatever lengths of deviations mean, and SALI
+// does not go to 0: with an angle of 1e-10 for a length it was 1e-8 here.
+TEST(Units, OfAnAngleAreNoLength) {
+  for (const std::string& text : {with_angle(1, 1, 1), with_angle(1e-10, 1e-26, 1e13)}) {
+    const json samples = samples_of(text);
+    const json& end = samples.back();
+    const auto lacks = [](const json& sample) {
+      return std::abs(sample["megno"].get<double>() - 2);
+    };
+    for (const json& sample : samples) {
+      if (sample["t"].get<double>() > end["t"].get<double>() / 4) break;
+      EXPECT_LT(lacks(end), 0.5 * lacks(sample)) << sample;
+    }
+    EXPECT_GT(end["sali"].get<double>(), 1e-3) << text;
+  }
+}
+
 json linear_part(const std::string& model) {
   for (const json& each : found({"verify", model, "--json"})) {
     if (each["property"] == "linear stability") return each;

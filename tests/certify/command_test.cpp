@@ -30,15 +30,17 @@ TEST(CertifyCommand, SaysWhatIsProvedAndOfWhichSteps) {
   EXPECT_TRUE(text[4].starts_with("  unique ")) << text[4];
 }
 
-// Momenta of 1e-24 beside coordinates of 1e-6 are no rounding of these.
+// Momenta of 1e29 beside coordinates of 1e11: Sun, Earth and Moon.
 TEST(CertifyCommand, KnowsTheUnitsOfCoordinatesAndMomenta) {
   const Scratch scratch;
-  const std::string model =
-      scratch.write("m.ham",
-                    "coordinate x, y\nmomentum px, py\nparameter m = 6.6e-26\nparameter w = 6e6\n"
-                    "parameter k = 2.3e-28\n"
-                    "H = (px^2 + py^2)/(2*m) + m*w^2*(x^2 + y^2)/2 + k/abs(x - y)\n"
-                    "scene s { x = 3e-6; y = -4e-6; px = 1e-25; h = 1e-8; steps = 20 }\n");
+  const std::string model = scratch.write(
+      "m.ham",
+      "coordinate x[1..3], y[1..3]\nmomentum px[1..3], py[1..3]\n"
+      "parameter m[1..3] = [1.98892e30, 5.9722e24, 7.342e22]\nparameter G = 6.6743e-11\n"
+      "H = sum(i=1..3, (px[i]^2 + py[i]^2)/(2*m[i])) - sum(i=1..3, j=i+1..3, "
+      "G*m[i]*m[j]/sqrt((x[i]-x[j])^2 + (y[i]-y[j])^2))\n"
+      "scene s { x = [0, 1.496e11, 1.499844e11]; py = [-1.801e29, 1.7785e29, 2.261e27]; h = 3600; "
+      "steps = 20 }\n");
   for (const char* scheme : {"implicit-midpoint", "gauss-8"}) {
     const json found = json::parse(certify(model, {"--scheme", scheme, "--json"}).out);
     EXPECT_EQ(found["certified"], 20) << scheme;
