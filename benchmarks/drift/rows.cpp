@@ -99,6 +99,18 @@ std::string gyroscope() {
          "H = (px + b*y)^2/6 + (py - b*x)^2/14 + x^2/2 + 0.65*y^2\n";
 }
 
+// In a frame that turns, where coordinates and momenta are coupled in every element; that it is
+// linear nobody knows.
+std::string turning_chain(int n) {
+  return fmt::format(
+      "system chain\nsize N = {}\ncoordinate x[1..N] with x[0] = 0, x[N+1] = 0\n"
+      "coordinate y[1..N] with y[0] = 0, y[N+1] = 0\nmomentum u[1..N], v[1..N]\n"
+      "parameter k = 1.3\nparameter w = 0.7\nparameter a = 0\n"
+      "H = sum(i = 1..N, (u[i]^2 + v[i]^2)/2 - w*(x[i]*v[i] - y[i]*u[i]) + x[i]^2/3 + y[i]^2/3)"
+      " + sum(i = 0..N, k*((x[i+1] - x[i])^2 + (y[i+1] - y[i])^2)/2 + a*(x[i+1] - x[i])^3/3)\n",
+      n);
+}
+
 // An oscillator beside a body it knows nothing of: a linear block in a nonlinear H.
 std::string oscillator_and_bodies() {
   return "system pair\ncoordinate x, y, u\nmomentum px, py, pu\nparameter w = 1.3\n"
@@ -293,6 +305,23 @@ std::vector<Row> all_rows() {
     add(rows, soft_band, "midpoint, fixed point", {.solver = "fixed-point"});
     add(rows, soft_band, "midpoint, Newton", {.solver = "newton"});
     add(rows, soft_band, "alpha = 3/10", {.alpha = "3/10"});
+  }
+  // Where momenta are not torn out: not separable, or of a higher order.
+  for (const double h : {0.1, 0.3, 1.0}) {
+    const Problem turning{.name = fmt::format("turning chain of 13, loops, h = {}", h),
+                          .model = turning_chain(13),
+                          .h = h};
+    const bool contracts = h < 1;
+    contracts ? add_members(rows, turning, 26) : add(rows, turning, "midpoint", {});
+    add(rows, turning, "midpoint, Newton", {.solver = "newton"});
+    const Problem raised{.name = fmt::format("soft chain of 25, order 4, h = {}", h),
+                         .model = soft_chain(25),
+                         .h = h};
+    add(rows, raised, "order 4", {.order = 4});
+    if (contracts) {
+      add(rows, raised, "order 4, fixed point", {.order = 4, .solver = "fixed-point"});
+    }
+    add(rows, raised, "order 4, Newton", {.order = 4, .solver = "newton"});
   }
   for (const auto& [k, h] : {std::pair("1", 1.8), std::pair("1.3", 0.1), std::pair("0.9", 2.0)}) {
     const Problem uneven{.name = fmt::format("uneven chain of 25, k = {}, h = {}", k, h),

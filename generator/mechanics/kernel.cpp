@@ -14,6 +14,12 @@ bool uses_momenta(const Kernel& kernel) {
   return std::ranges::any_of(kernel.slots, &Slot::is_momentum);
 }
 
+bool is_polynomial(const Kernel& kernel) {
+  const std::set<std::string> beyond = non_polynomial_symbols(kernel.value);
+  return std::ranges::none_of(kernel.slots,
+                              [&](const Slot& slot) { return beyond.contains(slot.symbol); });
+}
+
 std::string to_text(const AffineIndex& index) {
   std::string text;
   for (const auto& [name, factor] : index.factors) {

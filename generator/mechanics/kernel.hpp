@@ -74,6 +74,8 @@ struct KernelForm {
 // Which part of the state the kernel's slots lie in.
 [[nodiscard]] bool uses_coordinates(const Kernel& kernel);
 [[nodiscard]] bool uses_momenta(const Kernel& kernel);
+// In the state: abs(p) is none, for all that its second derivative vanishes.
+[[nodiscard]] bool is_polynomial(const Kernel& kernel);
 
 // "2*i + 1"
 [[nodiscard]] std::string to_text(const AffineIndex& index);

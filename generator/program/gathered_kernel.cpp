@@ -14,6 +14,9 @@ namespace {
 // Computed twice, such an instance still takes less than the memory that scattering waits for; a
 // function counts 10.
 constexpr long kCheap = 9;
+// A polynomial is computed in lanes then: with AVX-512 a step of FPU N = 1000 of order 4, of 15 to
+// 30 operations, takes 0.41 of the time (0.83 with SSE2, 1.12 by -O1), and one of 40 no less.
+constexpr long kCheapPolynomial = 32;
 constexpr long kFarthest = 2;
 
 std::string array_of(const std::string& symbol) { return symbol.substr(0, symbol.find('[')); }
@@ -190,7 +193,8 @@ std::vector<Kernel> gathered(const Kernel& kernel) {
     return {kernel};
   std::set<std::string> varying;
   for (const Slot& slot : kernel.slots) varying.insert(slot.symbol);
-  const bool cheap = operation_count(kernel.gradient, varying) <= kCheap;
+  const long most = is_polynomial(kernel) ? kCheapPolynomial : kCheap;
+  const bool cheap = operation_count(kernel.gradient, varying) <= most;
   const long length = kernel.ranges.front().upper.constant - kernel.ranges.front().lower.constant;
   if (!cheap || length <= 2 * kFarthest) return {kernel};
   return Gathering(kernel, *found).run();

@@ -29,11 +29,7 @@ bool is_quadratic_in_momenta(const Mechanics& mechanics) {
   }
   for (const Kernel& kernel : mechanics.kernels) {
     if (!uses_momenta(kernel)) continue;
-    if (kernel.sum) return false;
-    const std::set<std::string> beyond = non_polynomial_symbols(kernel.value);
-    for (const Slot& slot : kernel.slots) {
-      if (beyond.contains(slot.symbol)) return false;
-    }
+    if (kernel.sum || !is_polynomial(kernel)) return false;
     for (const auto& [place, value] : kernel.hessian) {
       for (const Slot& slot : kernel.slots) {
         if (depends_on(value, slot.symbol)) return false;

@@ -21,11 +21,9 @@ bool is_constant(const Kernel& kernel, const Expression& e) {
 
 // Is the kernel a polynomial of degree two in the state?
 bool has_constant_hessian(const Kernel& kernel) {
-  const std::set<std::string> beyond = non_polynomial_symbols(kernel.value);
-  return std::ranges::none_of(kernel.slots,
-                              [&](const Slot& slot) { return beyond.contains(slot.symbol); }) &&
-         std::ranges::all_of(kernel.hessian,
-                             [&](const auto& entry) { return is_constant(kernel, entry.second); });
+  return is_polynomial(kernel) && std::ranges::all_of(kernel.hessian, [&](const auto& entry) {
+           return is_constant(kernel, entry.second);
+         });
 }
 
 bool has_diagonal_hessian(const Kernel& kernel) {
@@ -180,7 +178,7 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bo
     } else {
       arrays.constant_matrix = has_constant_hessian(mechanics);
       arrays.matrix_work = matrix_work(mechanics, *arrays.matrix);
-      const bool either = wish.kind == Wish::cheapest && arrays.reduced && !arrays.constant_matrix;
+      const bool either = wish.kind == Wish::cheapest && !arrays.constant_matrix;
       if (either && arrays.matrix_work > 1) arrays.method = ArrayMethod::both;
     }
   }

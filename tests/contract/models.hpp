@@ -62,6 +62,25 @@ momentum p[1..N]
 H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, exp(40*(q[i] - q[i+1] - 1)))
 scene shot { p[1] = 2; p[16] = -3; h = 0.01; steps = 300 }
 )"},
+    // The same in a frame that turns: momenta are no function of the coordinates of a stage, and
+    // Newton takes over from the fixed point where beads meet.
+    SteepModel{"turning_beads", R"(size N = 12
+coordinate x[1..N] with x[0] = 0, x[N+1] = 0
+coordinate y[1..N]
+momentum u[1..N], v[1..N]
+parameter w = 1/2
+H = sum(i = 1..N, (u[i]^2 + v[i]^2)/2 - w*(x[i]*v[i] - y[i]*u[i]) + y[i]^2/2) + sum(i = 0..N, exp(40*(x[i] - x[i+1] - 1)))
+scene shot { u[1] = 2; u[6] = -3; v[i] = 1/10; h = 0.01; steps = 300 }
+scene coarse { u[1] = 2; u[6] = -3; v[i] = 1/10; h = 0.03; steps = 100 }
+)"},
+    // Velocities that hang on the momenta of neighbours, and one of them on the place, too.
+    SteepModel{"linked_beads", R"(size N = 9
+coordinate q[1..N] with q[0] = 0, q[N+1] = 0
+momentum p[1..N]
+H = sum(i = 1..N, p[i]^2/(2 + q[i]^2)) + sum(i = 1..N-1, p[i]*p[i+1]/5) + sum(i = 0..N, exp(30*(q[i] - q[i+1] - 1)))
+scene shot { p[1] = 2; p[5] = -3; h = 0.01; steps = 300 }
+scene coarse { p[1] = 2; p[5] = -3; h = 0.03; steps = 100 }
+)"},
     // A long wave on a chain: the increments that are seen contract faster than what rounding has
     // left in the short waves.
     SteepModel{"long_wave", R"(size N = 64
