@@ -62,26 +62,37 @@ Expression without_ranks(const Expression& e) {
 }
 
 // Square roots as symbols: s_b^k for b^(k/2), with s_b^2 = b to be used afterwards.
-struct SquareRoots {
-  std::map<Expression, Expression> symbols;
+class SquareRoots {
+ public:
+  [[nodiscard]] const std::map<Expression, Expression>& symbols() const { return symbols_; }
+  // A part that stands in many places is looked at once.
   Expression replace(const Expression& e) {
     if (e.operands().empty()) return e;
+    if (const auto it = replaced_.find(e); it != replaced_.end()) return it->second;
+    return replaced_.emplace(e, replace_in(e)).first->second;
+  }
+
+ private:
+  Expression replace_in(const Expression& e) {
     if (e.kind() == Kind::power && e.operands()[1].is_number() &&
         e.operands()[1].number().get_den() == 2) {
       const Expression base = replace(e.operands()[0]);
-      const auto name = "sqrt#" + std::to_string(symbols.size());
-      const Expression symbol = symbols.try_emplace(base, Expression::symbol(name)).first->second;
+      const auto name = "sqrt#" + std::to_string(symbols_.size());
+      const Expression symbol = symbols_.try_emplace(base, Expression::symbol(name)).first->second;
       return Expression::power(symbol, Expression(Rational(e.operands()[1].number() * 2)));
     }
     std::vector<Expression> operands;
     for (const Expression& operand : e.operands()) operands.push_back(replace(operand));
     return with_operands(e, std::move(operands));
   }
+
+  std::map<Expression, Expression> symbols_;
+  ExpressionMap<Expression> replaced_;
 };
 
 // The sum, a polynomial, with s^(2k) = b^k and s^(2k+1) = s b^k: zero if it vanishes so.
 bool vanishes_with_roots(GiNaC::ex sum, const SquareRoots& roots, SymbolTable& table) {
-  for (const auto& [base, symbol] : roots.symbols) {
+  for (const auto& [base, symbol] : roots.symbols()) {
     const GiNaC::ex s = table.symbol(symbol.name(), 0);
     const GiNaC::ex b = to_ginac(base, table);
     if (sum.ldegree(s) < 0) return false;  // which numerator() excludes, and k / 2 has to

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "generator/algebra/evaluate.hpp"
@@ -85,6 +87,19 @@ TEST(Enclosures, OfSeveralAreThoseOfEach) {
   EXPECT_TRUE(undefined.at({{"x", {1.0, 2.0}}}));
   EXPECT_FALSE(undefined.at({{"x", {-1.0, 2.0}}}));
   EXPECT_FALSE(together.at({{"x", {0.0, 1.0}}}));
+}
+
+TEST(Enclosures, OfASumEndAtTheNextNumbers) {
+  using Limits = std::numeric_limits<double>;
+  constexpr double kInfinity = Limits::infinity();
+  for (const double size : {0.0, Limits::denorm_min(), Limits::min(), 1.0, 1.0 + Limits::epsilon(),
+                            2.0, 1e300, Limits::max(), kInfinity}) {
+    for (const double x : {size, -size}) {
+      const Interval sum = Interval{x, x} + Interval{};
+      EXPECT_EQ(sum.low, std::nextafter(x, -kInfinity)) << x;
+      EXPECT_EQ(sum.high, std::nextafter(x, kInfinity)) << x;
+    }
+  }
 }
 
 }  // namespace
