@@ -105,16 +105,12 @@ class LoopMember : LoopStage {
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
     if (fixed_point() || both()) {
-      start.fields.push_back({.name = "rule", .type = std::string(contraction_rule())});
+      start.fields.push_back(
+          {.name = "rule", .type = std::string(settles() ? "ContractionRule" : plan_.rule)});
       start.fields.push_back(
           {.name = "refinement", .type = fmt::format("Refinement<{}, {}>", unknowns(), 2 * n_)});
     }
     code_.records.push_back(std::move(start));
-  }
-
-  [[nodiscard]] std::string_view contraction_rule() const {
-    if (settles()) return "ContractionRule";
-    return both() ? "ImpatientRule" : plan_.rule;
   }
 
   // --- the step --------------------------------------------------------------------------------
@@ -291,7 +287,7 @@ class LoopMember : LoopStage {
                                     .count = unknowns(),
                                     .components = 2 * n_,
                                     .begun = true,
-                                    .gives_up = both() && settles(),
+                                    .gives_up = both(),
                                     .body = refined},
                         {kRefinementRemark}});
   }

@@ -64,7 +64,7 @@ class LoopStage {
   // The size of all increments together then falls from one iteration to the next: q does not wait
   // for p.
   [[nodiscard]] bool settles() const {
-    return arrays_.reduced && (both() || (fixed_point() && plan_.rule == kFixedPointRule));
+    return both() || (fixed_point() && arrays_.reduced && plan_.rule == kFixedPointRule);
   }
   [[nodiscard]] int unknowns() const { return arrays_.reduced ? n_ : 2 * n_; }
   [[nodiscard]] bool needs_drift() const { return arrays_.reduced && weights_.p_by_p.has_value(); }

@@ -178,7 +178,7 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bo
     } else {
       arrays.constant_matrix = has_constant_hessian(mechanics);
       arrays.matrix_work = matrix_work(mechanics, *arrays.matrix);
-      const bool either = wish.kind == Wish::cheapest && !arrays.constant_matrix;
+      const bool either = wish.kind == Wish::cheapest && arrays.reduced && !arrays.constant_matrix;
       if (either && arrays.matrix_work > 1) arrays.method = ArrayMethod::both;
     }
   }

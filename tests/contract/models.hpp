@@ -62,8 +62,7 @@ momentum p[1..N]
 H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, exp(40*(q[i] - q[i+1] - 1)))
 scene shot { p[1] = 2; p[16] = -3; h = 0.01; steps = 300 }
 )"},
-    // The same in a frame that turns: momenta are no function of the coordinates of a stage, and
-    // Newton takes over from the fixed point where beads meet.
+    // The same in a frame that turns: momenta are no function of the coordinates of a stage.
     SteepModel{"turning_beads", R"(size N = 12
 coordinate x[1..N] with x[0] = 0, x[N+1] = 0
 coordinate y[1..N]
