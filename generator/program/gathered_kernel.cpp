@@ -14,8 +14,9 @@ namespace {
 // Computed twice, such an instance still takes less than the memory that scattering waits for; a
 // function counts 10.
 constexpr long kCheap = 9;
-// A polynomial is computed in lanes then: with AVX-512 a step of FPU N = 1000 of order 4, of 15 to
-// 30 operations, takes 0.41 of the time (0.83 with SSE2, 1.12 by -O1), and one of 40 no less.
+// A polynomial is computed in lanes then: with AVX-512 a step by a fixed point of FPU N = 1000 of
+// order 4, of 15 to 30 operations, takes 0.41 of the time (0.83 with SSE2, 1.12 by -O1), and
+// Stormer-Verlet with some 40 operations in a summand takes no less.
 constexpr long kCheapPolynomial = 32;
 constexpr long kFarthest = 2;
 

@@ -112,6 +112,15 @@ TEST(LargePlan, ACheapChainIsGathered) {
   EXPECT_TRUE(contains(cheap, "for (int i = 2; i <= 63; ++i)")) << cheap;
   EXPECT_TRUE(contains(cheap, "q_i_minus_1")) << cheap;
   EXPECT_FALSE(contains(cheap, "2.0 * q_i")) << cheap;
+  // Of 9 operations is what has functions, of 32 a polynomial, which is computed in lanes.
+  const std::string quartic = "(q[i+1] - q[i])^2/2 + 3*(q[i+1] - q[i])^4/7";
+  EXPECT_TRUE(
+      contains(function_text(outcome(chain(64, quartic + " + (q[i+1] - q[i])^3*q[i]^2/5")).header,
+                             "void potential_gradient("),
+               "q_i_minus_1"));
+  EXPECT_FALSE(contains(function_text(outcome(chain(64, quartic + " + cos(q[i+1] - q[i])")).header,
+                                      "void potential_gradient("),
+                        "q_i_minus_1"));
   const std::string dear = function_text(
       outcome(chain(64, "exp(q[i+1] - q[i]) - q[i+1] + q[i]")).header, "void potential_gradient(");
   EXPECT_FALSE(contains(dear, "q_i_minus_1")) << dear;
