@@ -1,5 +1,6 @@
-// drift [--steps N] [--starts N] [--seconds S] [--lanes W] [WORD...]: a table of the rows whose
-// problem or name has one of the words in it; W starts side by side, in lanes.
+// drift [--steps N] [--starts N] [--seconds S] [--lanes W] [--scalar S] [WORD...]: a table of the
+// rows whose problem or name has one of the words in it; W starts side by side, in lanes; in double
+// or float.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -16,6 +17,7 @@ using namespace hamgen::drift;
 struct Options {
   Length length;
   std::vector<std::string> flags = {"-march=native"};  // the same bits, in less time
+  std::string scalar = "double";
   std::vector<std::string> words;
 };
 
@@ -23,7 +25,8 @@ Options read_options(int count, char** arguments) {
   Options options;
   for (int i = 1; i < count; ++i) {
     const std::string argument = arguments[i];
-    const auto value = [&] { return std::atof(i + 1 < count ? arguments[++i] : "0"); };
+    const auto text = [&] { return i + 1 < count ? arguments[++i] : "0"; };
+    const auto value = [&] { return std::atof(text()); };
     if (argument == "--steps") {
       options.length.steps = static_cast<long long>(value());
     } else if (argument == "--starts") {
@@ -32,6 +35,8 @@ Options read_options(int count, char** arguments) {
       options.length.seconds = value();
     } else if (argument == "--lanes") {
       options.length.lanes = static_cast<int>(value());
+    } else if (argument == "--scalar") {
+      options.scalar = text();
     } else {
       options.words.push_back(argument);
     }
@@ -57,9 +62,10 @@ int main(int count, char** arguments) {
   fmt::print("{:30} {:34} {:>6} {:>10} {:>9} {:>7} {:>9} {:>9} {:>8} {:>8}  {}\n", "problem",
              "method", "starts", "mean", "std error", "errors", "units", "own rate", "chance",
              "ns/step", "verdict");
-  for (const Row& row : all_rows()) {
+  for (Row& row : all_rows()) {
     if (!is_wanted(row, options.words)) continue;
     ++wanted;
+    row.scalar = options.scalar;
     fmt::print("{:30} {:34} ", row.problem, row.name);
     std::fflush(stdout);
     try {

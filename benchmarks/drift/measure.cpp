@@ -18,8 +18,8 @@ namespace {
 
 constexpr int kParts = 16;  // of a run
 
-// What the emitted headers know by these names: rounded, exact, h, quantity, start, steps, starts,
-// seconds, lanes.  Numbers of a batch are in memory one after another, lane by lane.
+// What the emitted headers know by these names: rounded, exact, scalar, h, quantity, start, steps,
+// starts, seconds, lanes.  Numbers of a batch are in memory one after another, lane by lane.
 constexpr const char* kProgram = R"(
 #include <cmath>
 #include <cstdint>
@@ -29,9 +29,10 @@ constexpr const char* kProgram = R"(
 #include <memory>
 #include <vector>
 
+using Number = {scalar};
 using Quad = __float128;
 constexpr int lanes = {lanes};
-constexpr int size = sizeof(rounded::State) / sizeof(double) / lanes;
+constexpr int size = sizeof(rounded::State) / sizeof(Number) / lanes;
 static_assert(sizeof(exact::State) == size * sizeof(Quad));
 
 static std::uint64_t seed = 0;
@@ -42,10 +43,10 @@ static double uniform() {{
 
 static exact::Parameters exact_parameters(const rounded::Parameters& par) {{
   exact::Parameters result;
-  constexpr int count = sizeof(rounded::Parameters) / sizeof(double) / lanes;
-  double values[count * lanes + 1];
+  constexpr int count = sizeof(rounded::Parameters) / sizeof(Number) / lanes;
+  Number values[count * lanes + 1];
   Quad wide[count + 1];
-  std::memcpy(values, &par, count * lanes * sizeof(double));
+  std::memcpy(values, &par, count * lanes * sizeof(Number));
   for (int i = 0; i < count; ++i) wide[i] = values[i * lanes];
   std::memcpy(static_cast<void*>(&result), wide, count * sizeof(Quad));
   return result;
@@ -57,9 +58,9 @@ static Quad conserved(const exact::Parameters& par, Quad h, const Quad (&z)[size
   {quantity}
 }}
 
-static Quad conserved(const exact::Parameters& par, double h, const rounded::Propagator& run,
+static Quad conserved(const exact::Parameters& par, Number h, const rounded::Propagator& run,
                       int lane) {{
-  double hi[size * lanes], lo[size * lanes];
+  Number hi[size * lanes], lo[size * lanes];
   std::memcpy(hi, &run.state(), sizeof hi);
   std::memcpy(lo, &run.carry(), sizeof lo);
   Quad z[size];
@@ -67,7 +68,7 @@ static Quad conserved(const exact::Parameters& par, double h, const rounded::Pro
   return conserved(par, Quad(h), z);
 }}
 
-static void put_start(int s, int lane, double (&all)[size * lanes]) {{
+static void put_start(int s, int lane, Number (&all)[size * lanes]) {{
   seed = 7919u * s + 13;
   for (int i = 0; i < 10; ++i) uniform();
   double z[size];
@@ -91,13 +92,13 @@ static double now() {{
 }}
 
 int main() {{
-  const double h = {h};
+  const Number h = {h};
   const long long steps = {steps};
   const rounded::Parameters par;
   const exact::Parameters exact_par = exact_parameters(par);
   double running = 0;
   for (int s = 0; s < {starts} && (s < 4 || running < {seconds}); s += lanes) {{
-    double z[size * lanes];
+    Number z[size * lanes];
     for (int lane = 0; lane < lanes; ++lane) put_start(s + lane, lane, z);
     rounded::State state;
     std::memcpy(static_cast<void*>(&state), z, sizeof z);
@@ -170,15 +171,12 @@ void compare_starts(const std::vector<std::vector<double>>& errors, Result& resu
                                                              result.starts * (kParts - 1.0));
   result.chance = boost::math::cdf(boost::math::complement(by_chance, kParts * between / within));
   const double steps = static_cast<double>(result.steps) / kParts;
-  result.own_rate = std::sqrt(std::max(0.0, between - within / kParts)) /
-                    (std::numeric_limits<double>::epsilon() * steps);
+  result.own_rate = std::sqrt(std::max(0.0, between - within / kParts)) / (result.unit * steps);
 }
 
 }  // namespace
 
-double Result::units() const {
-  return mean / (std::numeric_limits<double>::epsilon() * static_cast<double>(steps));
-}
+double Result::units() const { return mean / (unit * static_cast<double>(steps)); }
 
 bool Result::drifts() const {
   const bool of_all = !(std::abs(mean) <= 4 * standard_error) && !(std::abs(units()) <= 1e-4);
@@ -191,21 +189,23 @@ Result measure(const Row& row, const Length& length, const Edit& edit,
                const std::vector<std::string>& flags) {
   Request request = row.request;
   if (length.lanes > 1) request.batch = length.lanes;
-  const std::string rounded = emitted_header(row.model, request, "double", "rounded");
+  const std::string rounded = emitted_header(row.model, request, row.scalar, "rounded");
   const std::size_t invariants =
       read_request(make_source("drift.ham", row.model), row.request).invariants.size();
   const long long part = std::max<long long>(length.steps / kParts, 1);
   const std::string program =
       fmt::format("constexpr int exact_invariants = {};\n", std::max<std::size_t>(invariants, 1)) +
       fmt::format(fmt::runtime(kProgram), fmt::arg("quantity", quantity_text(row.conserved)),
-                  fmt::arg("h", row.h), fmt::arg("steps", part), fmt::arg("parts", kParts),
-                  fmt::arg("starts", length.starts), fmt::arg("seconds", length.seconds),
-                  fmt::arg("lanes", length.lanes), fmt::arg("start", row.start));
+                  fmt::arg("scalar", row.scalar), fmt::arg("h", row.h), fmt::arg("steps", part),
+                  fmt::arg("parts", kParts), fmt::arg("starts", length.starts),
+                  fmt::arg("seconds", length.seconds), fmt::arg("lanes", length.lanes),
+                  fmt::arg("start", row.start));
   std::istringstream output(
       output_of_program({{"rounded.hpp", edit ? edit(rounded) : rounded},
                          {"exact.hpp", emitted_header(row.model, row.request, "quad", "exact")}},
                         program, flags));
   Result result{.steps = part * kParts, .solver = solver_of(rounded)};
+  if (row.scalar == "float") result.unit = std::numeric_limits<float>::epsilon();
   std::vector<std::vector<double>> errors;
   double squares = 0.0;
   double running = 0.0;

@@ -1,4 +1,4 @@
-// Does rounding make a conserved quantity drift?  A method is emitted in double and in quad,
+// Does rounding make a conserved quantity drift?  A method is emitted in its scalar and in quad,
 // compiled with the flags of `hamgen run`, and run from many starts.
 #pragma once
 
@@ -30,6 +30,7 @@ struct Row {
   // start.
   std::string start = "for (double& value : z) value = uniform();";
   bool is_exempt = false;  // not symplectic: listed, not judged
+  std::string scalar = "double";  // or "float"
 };
 
 struct Result {
@@ -42,6 +43,7 @@ struct Result {
   double own_rate = 0.0;
   double chance = 1.0;
   double nanoseconds = 0.0;  // of processor time a step
+  double unit = 0x1p-52;     // of rounding
   std::string solver;
 
   // Is |mean| more than 4 standard errors and 1e-4 units of rounding a step, or the starts' own
@@ -62,7 +64,7 @@ struct Length {
 
 using Edit = std::function<std::string(const std::string&)>;
 
-// `edit` changes the emitted header in double, `flags` come after those of `hamgen run`.  Throws
+// `edit` changes the emitted header that rounds, `flags` come after those of `hamgen run`.  Throws
 // std::runtime_error with the compiler's or the program's words.
 [[nodiscard]] Result measure(const Row& row, const Length& length, const Edit& edit = {},
                              const std::vector<std::string>& flags = {});

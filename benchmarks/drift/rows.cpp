@@ -28,6 +28,14 @@ std::string pushed_chain(int n) {
       n);
 }
 
+std::string beating_ring(int n) {
+  return fmt::format(
+      "system ring\nsize N = {}\ncoordinate q[1..N] periodic\nmomentum p[1..N] periodic\n"
+      "H = sum(i = 1..N, (q[i]^2 + p[i]^2)^2/4 + q[i]*q[i+1]/30 + p[i]*p[i+1]/30)\n"
+      "invariant A = sum(i = 1..N, q[i]^2 + p[i]^2)\n",
+      n);
+}
+
 std::string list_of(int n, const std::string& value) {
   std::string text = "[";
   for (int i = 0; i < n; ++i) text += (i == 0 ? "" : ", ") + value;
@@ -322,6 +330,16 @@ std::vector<Row> all_rows() {
       add(rows, raised, "order 4, fixed point", {.order = 4, .solver = "fixed-point"});
     }
     add(rows, raised, "order 4, Newton", {.order = 4, .solver = "newton"});
+  }
+  for (const int n : {4, 30}) {
+    const Problem beating{.name = fmt::format("beating ring of {}", n),
+                          .model = beating_ring(n),
+                          .conserved = Conserved::invariant};
+    for (const char* solver : {"fixed-point", "newton"}) {
+      add(rows, beating, fmt::format("midpoint, {}", solver), {.solver = solver});
+      add(rows, beating, fmt::format("gauss-4, {}", solver),
+          {.scheme = "gauss-4", .solver = solver});
+    }
   }
   for (const auto& [k, h] : {std::pair("1", 1.8), std::pair("1.3", 0.1), std::pair("0.9", 2.0)}) {
     const Problem uneven{.name = fmt::format("uneven chain of 25, k = {}, h = {}", k, h),

@@ -1,9 +1,12 @@
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
-  // Over so many units of rounding what is not linear is far below them, and Refinement goes on. In
-  // loops a round of that costs more than an iteration: there it is left less.
-  Real units = 16384;
+  // Over so many units of rounding, and from there `amplifier` times as far, what is not linear is
+  // far below them, and Refinement goes on: in double 2^17 * 2^28 * 2^-52 of a unit, and of what is
+  // left after a contraction less than that. In float 16384 units are 2e-3 of a number, and 64 give
+  // 2^7 * 2^12 * 2^-23. In loops a round of that costs more than an iteration: there it is left
+  // less.
+  Real units = epsilon < Real(1e-10) ? 16384 : 64;
   // What is less than this of the whole, far below what rounding takes from it, is not waited for:
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.

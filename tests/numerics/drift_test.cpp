@@ -255,6 +255,16 @@ TEST(Drift, AFixedPointIsRefinedFromAfar) {
                          {.model = soft_chain(4), .request = {.solver = "fixed-point"}, .h = 0.25});
 }
 
+// In float so far a difference is not linear.
+TEST(Drift, AFixedPointInFloatIsRefinedFromNearerBy) {
+  expect_drift_only_with({{"? 16384 : 64", "? 16384 : 16384"}},
+                         {.model = beating_ring(30),
+                          .request = {.solver = "fixed-point"},
+                          .conserved = Conserved::invariant,
+                          .scalar = "float"},
+                         {.steps = 20'000});
+}
+
 // Below: whose image its iterate is, rounding has chosen.
 TEST(Drift, AFixedPointInLoopsIsRefinedFromItsIterate) {
   expect_drift_only_with(
