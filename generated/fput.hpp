@@ -35,9 +35,9 @@
 #endif
 
 #ifndef HAMGEN_SYSTEM_fput
-#define HAMGEN_SYSTEM_fput 0x7026f474
+#define HAMGEN_SYSTEM_fput 0xf47ff3cd
 namespace fput {
-inline namespace emitted_7026f474 {
+inline namespace emitted_f47ff3cd {
 
 using Real = double;
 inline constexpr int n = 32;  // degrees of freedom
@@ -65,12 +65,16 @@ inline Real energy(const Parameters& par, const State& z) {
     const Real t2 = t1 * t1;
     sum += 0.5 * t2 + (1.0 / 3.0) * par.alpha * t1 * t2;
   }
-  const Real q_1 = z.q[0];
-  const Real q_32 = z.q[31];
-  const Real t1 = q_1 * q_1;
-  const Real t2 = q_32 * q_32;
-  sum += 0.5 * t1 + 0.5 * t2 + (1.0 / 3.0) * par.alpha * q_1 * t1 -
-      (1.0 / 3.0) * par.alpha * q_32 * t2;
+  {
+    const Real q_1 = z.q[0];
+    const Real t1 = q_1 * q_1;
+    sum += 0.5 * t1 + (1.0 / 3.0) * par.alpha * q_1 * t1;
+  }
+  {
+    const Real q_32 = z.q[31];
+    const Real t1 = q_32 * q_32;
+    sum += 0.5 * t1 - (1.0 / 3.0) * par.alpha * q_32 * t1;
+  }
   return sum;
 }
 
@@ -101,8 +105,10 @@ inline void potential_gradient(const Parameters& par, const Real* q, Real* dq) {
   }
   {
     const Real q_1 = q[0];
-    const Real q_32 = q[31];
     dq[0] += q_1 + par.alpha * (q_1 * q_1);
+  }
+  {
+    const Real q_32 = q[31];
     dq[31] += q_32 - par.alpha * (q_32 * q_32);
   }
 }
@@ -126,9 +132,9 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
   gradient(par, z.q, z.p, values, values + n);
 }
 
-}  // namespace emitted_7026f474
+}  // namespace emitted_f47ff3cd
 }  // namespace fput
-#elif HAMGEN_SYSTEM_fput != 0x7026f474
+#elif HAMGEN_SYSTEM_fput != 0xf47ff3cd
 #error "another system of this name is included before: generate one with --namespace"
 #endif
 
@@ -137,11 +143,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_ee4e431b::float64 {
+namespace hamgen_0b11dba2::float64 {
 using Real = double;
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_STEP_REPORT
-#define HAMGEN_EE4E431B_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_0B11DBA2_FLOAT64_STEP_REPORT
+#define HAMGEN_0B11DBA2_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -151,15 +157,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_VOCABULARY
-#define HAMGEN_EE4E431B_FLOAT64_VOCABULARY
+#ifndef HAMGEN_0B11DBA2_FLOAT64_VOCABULARY
+#define HAMGEN_0B11DBA2_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_TWO_SUM
-#define HAMGEN_EE4E431B_FLOAT64_TWO_SUM
+#ifndef HAMGEN_0B11DBA2_FLOAT64_TWO_SUM
+#define HAMGEN_0B11DBA2_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -169,8 +175,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_SUM_WITH_REST
-#define HAMGEN_EE4E431B_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_0B11DBA2_FLOAT64_SUM_WITH_REST
+#define HAMGEN_0B11DBA2_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -182,8 +188,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_SUMS
-#define HAMGEN_EE4E431B_FLOAT64_SUMS
+#ifndef HAMGEN_0B11DBA2_FLOAT64_SUMS
+#define HAMGEN_0B11DBA2_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -234,8 +240,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_BAND_MATRIX
-#define HAMGEN_EE4E431B_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_0B11DBA2_FLOAT64_BAND_MATRIX
+#define HAMGEN_0B11DBA2_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -300,8 +306,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_EE4E431B_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_0B11DBA2_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_0B11DBA2_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -366,14 +372,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_VERDICT
-#define HAMGEN_EE4E431B_FLOAT64_VERDICT
+#ifndef HAMGEN_0B11DBA2_FLOAT64_VERDICT
+#define HAMGEN_0B11DBA2_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_NEWTON_RULE
-#define HAMGEN_EE4E431B_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_0B11DBA2_FLOAT64_NEWTON_RULE
+#define HAMGEN_0B11DBA2_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -543,8 +549,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_EE4E431B_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_0B11DBA2_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_0B11DBA2_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -814,8 +820,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_EE4E431B_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_0B11DBA2_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_0B11DBA2_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -838,8 +844,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_EE4E431B_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_0B11DBA2_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_0B11DBA2_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
@@ -961,8 +967,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_EE4E431B_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_0B11DBA2_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_0B11DBA2_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -982,10 +988,18 @@ struct FixedPointRule {
 // 3e-4 roundings a step by a slow one, a linear ring of 30 2e-4 by one of 1/36, 9e-5 by 1/80, and
 // nothing by 1/142.  Refinement begins at the iterate itself, down to 1/96, where what is
 // seen, in proportion to the contraction, is below the 1e-4 that a step may be off in the mean.
+//
+// Note [of one or of two]
+// Where coordinates move momenta and these the coordinates, two increments are in a ratio to each
+// other that says how differently both are missing, and the next two are in another: both ratios
+// together are the contraction of two (Cycle 2).  The next increment but one is that times the last
+// one, in either case.
+template <int Cycle>
 struct ContractionRule {
   FixedPointRule<2> rule;
-  Real contraction = largest;  // where nothing is known
+  Real contraction = largest;  // of so many increments; where nothing is known
   Real size = 0;               // of the last increment
+  Real past[Cycle] = {};       // and of those before it, the oldest first; 0: there was none
   Real round_off = 0;
   int work = 0;
   int unchecked = 0;
@@ -995,11 +1009,14 @@ struct ContractionRule {
   void begin(int matrix_work) {
     rule.begin();
     size = 0;
+    for (Real& each : past) each = 0;
     work = matrix_work;
     settled = false;
   }
   Verdict operator()(const Distance& moved, int iterations) {
-    const Real before = size;
+    for (int k = 1; k < Cycle; ++k) past[k - 1] = past[k];
+    past[Cycle - 1] = size;
+    const Real before = past[0];
     Verdict verdict = rule.judge(moved, iterations);
     size = rule.size;
     round_off = moved.round_off();
@@ -1013,37 +1030,46 @@ struct ContractionRule {
     }
     settled = unchecked < 32 && is_lost(missing);
     if (settled) return Verdict::done;
-    // One increment alone says nothing of the contraction, and another may settle it; none at all,
+    // So few increments say nothing of the contraction, and another may settle it; none at all,
     // as in a state of equilibrium, never will.
-    const bool grows = before > 0 && 2 * size > before && size > 8 * round_off;
-    const bool goes_on =
-        before > 0 ? grows && work > 0 : contraction >= largest || is_lost(contraction * size);
+    const bool grows = before > 0 && of_two(2) * size > before && size > 8 * round_off;
+    const bool goes_on = before > 0 ? grows && work > 0 : contraction >= largest || is_lost(next());
     const bool may_go_on = size > 0 && iterations < 500;
     return verdict == Verdict::done && goes_on && may_go_on ? Verdict::go_on : verdict;
   }
   // Is the last increment made?  See Note [who has chosen the point].
-  bool moves() const { return settled || contraction * 96 <= 1; }
+  bool moves() const { return settled || contraction * of_two(96) <= 1; }
   // It may rise at once but falls slowly: one small increment may be luck.
   void learn(Real seen) {
     const bool first = contraction >= largest;
-    if (first || seen > contraction || 4 * seen > contraction) {
+    if (first || seen > contraction || of_two(4) * seen > contraction) {
       contraction = seen;
     } else {
-      contraction /= 4;
+      contraction /= of_two(4);
     }
     unchecked = 0;
   }
+  // Of one round of Refinement.
+  void learn_of_round(Real seen) { learn(of_two(seen)); }
   // Would so many rounds of Refinement cost more than the matrix?
   bool is_slow() const {
     if (work == 0 || contraction >= largest) return false;
     Real left = 1;
     for (int round = 0; round < work; ++round) left *= contraction;
-    return 2 * contraction > 1 || left * 8192 > 1;
+    return 2 * contraction > 1 || left * of_two(8192) > 1;
   }
 
  private:
+  // What one increment does is done twice by two.
+  static constexpr Real of_two(Real of_one) { return Cycle == 1 ? of_one : of_one * of_one; }
   bool is_lost(Real missing) const {
-    return contraction < 1 && contraction * contraction * missing * 1048576 <= round_off;
+    const Real of_next_but_one = Cycle == 1 ? contraction * contraction : contraction;
+    return contraction < 1 && of_next_but_one * missing * 1048576 <= round_off;
+  }
+  // The next increment; of two, if the one before it is not known, as if it fell by a 64th.
+  Real next() const {
+    if (Cycle == 1) return contraction * size;
+    return past[Cycle - 1] > 0 ? contraction * past[Cycle - 1] : size / 64;
   }
   // When it is tried again, things may have changed.
   Verdict give_up() {
@@ -1053,8 +1079,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_REFINEMENT
-#define HAMGEN_EE4E431B_FLOAT64_REFINEMENT
+#ifndef HAMGEN_0B11DBA2_FLOAT64_REFINEMENT
+#define HAMGEN_0B11DBA2_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1125,7 +1151,7 @@ struct Refinement {
     const Real before = least;
     const bool first = rounds == 1;
     const bool more = (*this)(point, lack, gradient);
-    if (first && before > 0) rule.learn(last / before);
+    if (first && before > 0) rule.learn_of_round(last / before);
     if (!more || !rule.is_slow()) return more;
     rounds = 0;
     for (int j = 0; j < Size; ++j) point[j] = at[j];
@@ -1222,8 +1248,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_HISTORY
-#define HAMGEN_EE4E431B_FLOAT64_HISTORY
+#ifndef HAMGEN_0B11DBA2_FLOAT64_HISTORY
+#define HAMGEN_0B11DBA2_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1324,8 +1350,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_EE4E431B_FLOAT64_FORGET
-#define HAMGEN_EE4E431B_FLOAT64_FORGET
+#ifndef HAMGEN_0B11DBA2_FLOAT64_FORGET
+#define HAMGEN_0B11DBA2_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1335,17 +1361,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_ee4e431b::float64
+}  // namespace hamgen_0b11dba2::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x20b44b5d
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xe06585a8
 namespace fput::implicit_midpoint {
-inline namespace emitted_20b44b5d {
+inline namespace emitted_e06585a8 {
 
-namespace numerics = ::hamgen_ee4e431b::float64;
+namespace numerics = ::hamgen_0b11dba2::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1384,7 +1410,7 @@ struct Start {
   Matrix matrix;
   WaitingNewtonRule<2, 32> newton_rule;
   int patience = 0;      // steps left to Newton
-  ContractionRule rule;
+  ContractionRule<1> rule;
   Refinement<32, 64> refinement;
 };
 
@@ -1432,12 +1458,16 @@ inline void differentiate(const Parameters& par, const Coefficients& k, const Re
     matrix.put(i - 1, i, -k.scale * t1);
     matrix.put(i - 1, i - 1, k.scale * t1);
   }
-  const Real q_1 = at[0];
-  const Real q_32 = at[31];
-  const Real entry_1 = 1.0 + 2.0 * par.alpha * q_1;
-  matrix.put(0, 0, k.scale * entry_1);
-  const Real entry_2 = 1.0 - 2.0 * par.alpha * q_32;
-  matrix.put(31, 31, k.scale * entry_2);
+  {
+    const Real q_1 = at[0];
+    const Real entry_1 = 1.0 + 2.0 * par.alpha * q_1;
+    matrix.put(0, 0, k.scale * entry_1);
+  }
+  {
+    const Real q_32 = at[31];
+    const Real entry_1 = 1.0 - 2.0 * par.alpha * q_32;
+    matrix.put(31, 31, k.scale * entry_1);
+  }
 }
 
 // y = V'' u at a stage.
@@ -1452,12 +1482,16 @@ inline void potential_curvature(const Parameters& par, const Real* q, const Real
     y[i - 1] -= t1 * u[i];
     y[i - 1] += t1 * u[i - 1];
   }
-  const Real q_1 = q[0];
-  const Real q_32 = q[31];
-  const Real entry_1 = 1.0 + 2.0 * par.alpha * q_1;
-  y[0] += u[0] * entry_1;
-  const Real entry_2 = 1.0 - 2.0 * par.alpha * q_32;
-  y[31] += u[31] * entry_2;
+  {
+    const Real q_1 = q[0];
+    const Real entry_1 = 1.0 + 2.0 * par.alpha * q_1;
+    y[0] += u[0] * entry_1;
+  }
+  {
+    const Real q_32 = q[31];
+    const Real entry_1 = 1.0 - 2.0 * par.alpha * q_32;
+    y[31] += u[31] * entry_1;
+  }
 }
 
 // False if the fixed point contracts so slowly that Newton's matrix is worth its work.
@@ -1682,9 +1716,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_20b44b5d
+}  // namespace emitted_e06585a8
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x20b44b5d
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xe06585a8
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -18,6 +18,11 @@ constexpr double kRoundOff = 1e-13;  // in double
 constexpr int kStates = 100;
 // Of a component's amplitude: error some 1e-10 on both sides, in double.
 constexpr double kDifference = 1e-5;
+// Another solution of the equations is farther away than this part of the amplitudes.
+constexpr double kOtherSolution = 1e-6;
+// Where a step may have come to one, the state is moved from the orbit by a quarter of that, so
+// many times.
+constexpr int kQuarters = 6;
 
 using Vector = std::vector<double>;
 
@@ -56,21 +61,15 @@ class TangentMeasurement {
 
   void run() {
     for (int i = 0; i < kStates; ++i) {
-      const Sample z = sample();
-      if (!take_step(z, start_.h.hi) || !all_finite(end_) || !all_finite(matrix_)) {
-        ++failed_;
-        continue;
+      const Move move = draw();
+      Seen seen;
+      for (int quarters = 0; quarters <= kQuarters; ++quarters) {
+        const bool compares = i % 10 == 0;
+        seen = look_at(moved_by(move, std::ldexp(1.0, -2 * quarters)), compares);
+        if (!seen.may_be_another) break;
+        if (quarters == 0) ++nearer_;
       }
-      const Vector end = end_;
-      const Vector matrix = matrix_;
-      defect_ = std::max(defect_, symplectic_defect(matrix));
-      if (i % 10 == 0) compare_with_differences(z, matrix);
-      if (take_step({z.parameters, end}, -start_.h.hi) && all_finite(end_)) {
-        ++reversed_;
-        for (std::size_t k = 0; k < 2 * n_; ++k) {
-          reversal_ = std::max(reversal_, std::abs(end_[k] - z.state[k]) / amplitude_[k]);
-        }
-      }
+      take(seen);
     }
   }
 
@@ -78,13 +77,19 @@ class TangentMeasurement {
     const std::string where = fmt::format(
         "at {} states and parameters around the scene, h = {:g}{}", kStates, start_.h.hi,
         failed_ == 0 ? "" : fmt::format(" ({} of them without a step)", failed_));
+    const std::string elsewhere =
+        nearer_ == 0 ? ""
+                     : fmt::format(
+                           "; {} of them moved less, for farther off the equations have "
+                           "other solutions, or nearly so",
+                           nearer_);
     if (failed_ == kStates)
       return {{"tangent map symplectic", Verdict::not_decided, "no step could be taken " + where}};
     const double round_off = kRoundOff * doubles_of_epsilon();
     auto within = [&](const std::string& property, double value) {
-      return Finding{
-          property, value <= round_off ? Verdict::tested : Verdict::refuted,
-          fmt::format("at most {:.2e} {}; round-off is below {:.0e}", value, where, round_off)};
+      return Finding{property, value <= round_off ? Verdict::tested : Verdict::refuted,
+                     fmt::format("at most {:.2e} {}; round-off is below {:.0e}{}", value, where,
+                                 round_off, elsewhere)};
     };
     Proof proof{within("tangent map symplectic", defect_)};
     if (compared_ == 0) {
@@ -120,18 +125,73 @@ class TangentMeasurement {
     for (double& a : part) a = a > rest * most ? a : most;
   }
 
-  // A state of the orbit and the scene's parameters, each moved by up to a tenth.
-  Sample sample() {
+  // From a state of the orbit and the scene's parameters, each by up to a tenth.
+  struct Move {
+    std::size_t from = 0;
+    Vector parameters, state;
+  };
+  Move draw() {
     std::uniform_real_distribution<double> tenth(-0.1, 0.1);
-    Sample result;
-    for (const runtime::Wide& p : start_.parameters) {
-      result.parameters.push_back(p.hi * (1 + tenth(source_)));
-    }
-    const Vector& z = orbit_[source_() % orbit_.size()];
-    for (std::size_t i = 0; i < z.size(); ++i) {
-      result.state.push_back(z[i] + tenth(source_) * amplitude_[i]);
-    }
+    Move result;
+    for (std::size_t i = 0; i < start_.parameters.size(); ++i)
+      result.parameters.push_back(tenth(source_));
+    result.from = source_() % orbit_.size();
+    for (std::size_t i = 0; i < 2 * n_; ++i) result.state.push_back(tenth(source_));
     return result;
+  }
+  [[nodiscard]] Sample moved_by(const Move& move, double part) const {
+    Sample result;
+    for (std::size_t i = 0; i < move.parameters.size(); ++i)
+      result.parameters.push_back(start_.parameters[i].hi * (1 + part * move.parameters[i]));
+    const Vector& z = orbit_[move.from];
+    for (std::size_t i = 0; i < z.size(); ++i)
+      result.state.push_back(z[i] + part * move.state[i] * amplitude_[i]);
+    return result;
+  }
+
+  // What one state shows.
+  struct Seen {
+    bool failed = false, reversed = false, wrong = false;
+    bool may_be_another = false;  // has the step, or the one back, come to another solution?
+    double defect = 0, reversal = 0, difference = 0;
+    int compared = 0;
+  };
+  Seen look_at(const Sample& z, bool compares) {
+    Seen seen;
+    if (!take_step(z, start_.h.hi) || !all_finite(end_) || !all_finite(matrix_)) {
+      seen.failed = true;
+      return seen;
+    }
+    const Vector end = end_;
+    const Vector matrix = matrix_;
+    seen.defect = symplectic_defect(matrix);
+    if (compares) compare_with_differences(z, matrix, seen);
+    seen.may_be_another = seen.wrong;  // a jump, or next to one, where M grows without bounds
+    if (take_step({z.parameters, end}, -start_.h.hi) && all_finite(end_)) {
+      seen.reversed = true;
+      for (std::size_t k = 0; k < 2 * n_; ++k) {
+        const double miss = std::abs(end_[k] - z.state[k]) / amplitude_[k];
+        seen.reversal = std::max(seen.reversal, miss / growth_of_errors(matrix_, k));
+        seen.may_be_another = seen.may_be_another || miss > kOtherSolution;
+      }
+    }
+    return seen;
+  }
+  // What rounding of all components comes to in one of them, by a step of this tangent map.
+  [[nodiscard]] double growth_of_errors(const Vector& matrix, std::size_t k) const {
+    double sum = 0;
+    for (std::size_t j = 0; j < 2 * n_; ++j)
+      sum += std::abs(matrix[2 * n_ * k + j]) * amplitude_[j] / amplitude_[k];
+    return std::max(sum, 1.0);
+  }
+  void take(const Seen& seen) {
+    if (seen.failed) ++failed_;
+    if (seen.reversed) ++reversed_;
+    compared_ += seen.compared;
+    wrong_ = wrong_ || seen.wrong;
+    defect_ = std::max(defect_, seen.defect);
+    reversal_ = std::max(reversal_, seen.reversal);
+    difference_ = std::max(difference_, seen.difference);
   }
 
   bool take_step(const Sample& z, double h) {
@@ -168,8 +228,9 @@ class TangentMeasurement {
   }
 
   // (Z(z + d) - Z(z - d)) / 2d with d and 2d: the error of the first, c d^2, is a third of the
-  // difference of the two; rounding of Z adds some units of its last place over d.
-  void compare_with_differences(const Sample& z, const Vector& matrix) {
+  // difference of the two; rounding of Z adds some units of its last place over d, and what
+  // those of z grow to in it.
+  void compare_with_differences(const Sample& z, const Vector& matrix, Seen& seen) {
     const std::size_t size = 2 * n_;
     // Both errors grow alike: c d^2, and epsilon over d.
     const double relative = kDifference * std::cbrt(doubles_of_epsilon());
@@ -188,14 +249,14 @@ class TangentMeasurement {
           quotient[factor - 1].push_back((above[i] - end_[i]) / (up.state[j] - down.state[j]));
         }
       }
-      ++compared_;
+      ++seen.compared;
       for (std::size_t i = 0; i < size; ++i) {
-        const double scale = amplitude_[i] / amplitude_[j];
+        const double scale = growth_of_errors(matrix, i) * amplitude_[i] / amplitude_[j];
         const double error = std::abs(matrix[i * size + j] - quotient[0][i]) / scale;
         const double rounding = 64 * epsilon_ / relative;
         const double bound = std::abs(quotient[1][i] - quotient[0][i]) / scale + rounding;
-        difference_ = std::max(difference_, error);
-        wrong_ = wrong_ || !(error <= bound);
+        seen.difference = std::max(seen.difference, error);
+        seen.wrong = seen.wrong || !(error <= bound);
       }
     }
   }
@@ -209,6 +270,7 @@ class TangentMeasurement {
   Vector amplitude_;
   std::mt19937_64 source_{1};
   int failed_ = 0;    // states without a step
+  int nearer_ = 0;    // states that were moved less
   int reversed_ = 0;  // steps back
   int compared_ = 0;  // columns of M
   double defect_ = 0;

@@ -194,9 +194,11 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
     const auto first = called(alternate.first);
     const auto second = called(alternate.second);
     const int target = index_of(alternate.patience.object);
-    return [this, first, second, target, alternate, between = steps(alternate.between)] {
+    return [this, first, second, target, alternate, before = steps(alternate.before),
+            between = steps(alternate.between)] {
       int& patience = object(target).flags.at(alternate.patience.field);
-      for (int attempt = 0; attempt < 2 && patience == 0; ++attempt) {
+      if (patience == 0 && !run_all(before)) return false;
+      for (int attempt = 0; attempt < alternate.attempts() && patience == 0; ++attempt) {
         if (first().converged) return true;
         if (!run_all(between)) return false;
       }

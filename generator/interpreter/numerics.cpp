@@ -151,8 +151,10 @@ class LinearRuleOf final : public AnyNewtonRule<Real> {
 
 template <class Real, class Rule>
 class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
-  using Contraction = typename NumericsOf<Real>::Contraction;
-  static constexpr bool kContracts = std::is_same_v<Rule, Contraction>;
+  template <int Cycle>
+  using Contraction = typename NumericsOf<Real>::template Contraction<Cycle>;
+  static constexpr bool kContracts =
+      std::is_same_v<Rule, Contraction<1>> || std::is_same_v<Rule, Contraction<2>>;
 
  public:
   void begin(int work) override {
@@ -166,9 +168,10 @@ class FixedPointRuleOf final : public AnyFixedPointRule<Real> {
     return answer(rule_(moved, iteration));
   }
   [[nodiscard]] Real size() const override { return rule_.size; }
-  [[nodiscard]] Contraction* contraction() override {
+  [[nodiscard]] std::variant<std::monostate, Contraction<1>*, Contraction<2>*> contraction()
+      override {
     if constexpr (kContracts) return &rule_;
-    return nullptr;
+    return {};
   }
 
  private:
@@ -203,8 +206,11 @@ class RefinementOf final : public AnyRefinement<Real> {
   bool refine(AnyFixedPointRule<Real>& rule, std::span<Real> point, std::span<const Real> lack,
               std::span<const Real> slope) override {
     Padded<Real, Size> all(point);
-    const bool more = refinement_(*rule.contraction(), all.padded, Padded<Real, Size>(lack).padded,
-                                  Padded<Real, 2 * Size>(slope).padded);
+    const Padded<Real, Size> missing(lack);
+    const Padded<Real, 2 * Size> gradient(slope);
+    const bool more = rule.ask([&](auto& contraction) {
+      return refinement_(contraction, all.padded, missing.padded, gradient.padded);
+    });
     std::copy_n(all.padded, point.size(), point.begin());
     return more;
   }

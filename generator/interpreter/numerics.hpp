@@ -6,6 +6,8 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace hamgen {
@@ -109,10 +111,31 @@ struct AnyFixedPointRule {
   virtual void begin(int work) = 0;
   virtual Answer operator()(const Distance& moved, int iteration) = 0;
   [[nodiscard]] virtual Real size() const = 0;
-  [[nodiscard]] bool moves() { return contraction() != nullptr && contraction()->moves(); }
-  [[nodiscard]] bool is_slow() { return contraction() != nullptr && contraction()->is_slow(); }
+  // Of a ContractionRule; of others false.
+  [[nodiscard]] bool moves() {
+    return ask([](const auto& rule) { return rule.moves(); });
+  }
+  [[nodiscard]] bool is_slow() {
+    return ask([](const auto& rule) { return rule.is_slow(); });
+  }
   // For Refinement; none if it is no ContractionRule.
-  [[nodiscard]] virtual typename NumericsOf<Real>::Contraction* contraction() = 0;
+  template <int Cycle>
+  using Contraction = typename NumericsOf<Real>::template Contraction<Cycle>;
+  [[nodiscard]] virtual std::variant<std::monostate, Contraction<1>*, Contraction<2>*>
+  contraction() = 0;
+  // What `use` says of the contraction rule.
+  template <class Use>
+  bool ask(const Use& use) {
+    return std::visit(
+        [&](auto rule) {
+          if constexpr (std::is_same_v<decltype(rule), std::monostate>) {
+            return false;
+          } else {
+            return use(*rule);
+          }
+        },
+        contraction());
+  }
 };
 template <class Real>
 struct AnySimplifiedNewtonRule {

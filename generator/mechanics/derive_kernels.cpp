@@ -25,7 +25,9 @@ constexpr std::size_t kMostTogether = 8;
 
 using Indices = std::map<std::string, long>;
 
-// Single instances that are written out together.
+// Single instances that are written out together: of the same elements, or of none in common.
+// Where they have some in common algebra would add what each of them has of these, and
+// differences of neighbours would become sums that cancel.
 struct Boundary {
   Boundary(const Model& model, const Touch& what) : converter(model, table), touch(what) {}
   SymbolTable table;
@@ -33,8 +35,17 @@ struct Boundary {
   Touch touch;
   std::optional<std::size_t> sum = {};
   std::set<std::string> elements;
+  std::set<std::set<std::string>> instances;
   std::set<int> terms;
   GiNaC::ex value;
+
+  // An instance of these elements?
+  [[nodiscard]] bool takes(const std::set<std::string>& used) const {
+    if (instances.contains(used)) return true;
+    const bool apart =
+        std::ranges::none_of(used, [&](const auto& name) { return elements.contains(name); });
+    return apart && elements.size() + used.size() <= kMostTogether;
+  }
 };
 
 class KernelBuilder {
@@ -232,14 +243,14 @@ class KernelBuilder {
     TreeConverter converter(model_, table);
     const std::set<std::string> used = symbols(from_ginac(body(term, converter, indices), table));
     if (boundaries_.empty() || boundaries_.back().touch != term.touch ||
-        boundaries_.back().sum != sum_ ||
-        boundaries_.back().elements.size() + used.size() > kMostTogether) {
+        boundaries_.back().sum != sum_ || !boundaries_.back().takes(used)) {
       boundaries_.emplace_back(model_, term.touch);
       boundaries_.back().sum = sum_;
     }
     Boundary& boundary = boundaries_.back();
     boundary.value += body(term, boundary.converter, indices);
     boundary.elements.insert(used.begin(), used.end());
+    boundary.instances.insert(used);
     boundary.terms.merge(terms_of(term));
   }
 

@@ -25,9 +25,6 @@ struct NotLocal {
   std::string why;
 };
 
-// Single instances with elements in common are one kernel, of at most so many.
-constexpr std::size_t kMostInOne = 8;
-
 long factor_of(const AffineIndex& index) {
   return index.factors.empty() ? 0 : index.factors.begin()->second;
 }
@@ -119,17 +116,16 @@ std::optional<Meeting> meeting(const AffineIndex& element, const KernelRange& ra
   return found.first <= found.last ? std::optional(found) : std::nullopt;
 }
 
-// Over the same instances; of single ones, with elements in common and few in all.
+// Over the same instances; of single ones, of the same elements: where they have some in common
+// algebra would add what each of them has of these, and differences become sums that cancel.
 bool belong_together(const Kernel& a, const Kernel& b) {
   if (a.ranges.size() != b.ranges.size()) return false;
   if (!a.ranges.empty())
     return range_of(a).lower == range_of(b).lower && range_of(a).upper == range_of(b).upper &&
            stride_of(a) == stride_of(b);
-  const auto common = std::ranges::count_if(a.slots, [&](const Slot& slot) {
-    return std::ranges::find(b.slots, slot.position, &Slot::position) != b.slots.end();
-  });
-  const std::size_t both = a.slots.size() + b.slots.size() - static_cast<std::size_t>(common);
-  return common > 0 && both <= kMostInOne;
+  return a.slots.size() == b.slots.size() && std::ranges::all_of(a.slots, [&](const Slot& slot) {
+           return std::ranges::find(b.slots, slot.position, &Slot::position) != b.slots.end();
+         });
 }
 
 // S_1 = H, S_2, ... with S = sum of h^k S_k, each as kernels.

@@ -6,14 +6,14 @@ namespace hamgen {
 
 namespace {
 
-constexpr long kFunction = 10;
+constexpr long kRoot = 10;
 
 // x^n by repeated squaring; a reciprocal is one division more, a root a function.
 long power_cost(const Rational& exponent) {
   Integer n = abs(exponent.get_num());
   long cost = exponent < 0 ? 1 : 0;
   if (exponent.get_den() != 1) {
-    cost += kFunction;
+    cost += kRoot;
     n /= exponent.get_den();
   }
   while (n > 1) {
@@ -25,7 +25,8 @@ long power_cost(const Rational& exponent) {
 
 }  // namespace
 
-long operation_count(std::span<const Expression> values, const std::set<std::string>& varying) {
+long operation_count(std::span<const Expression> values, const std::set<std::string>& varying,
+                     long function) {
   std::map<const void*, bool> seen;  // does the node vary?
   long total = 0;
   auto visit = [&](auto&& self, const Expression& node) -> bool {
@@ -50,11 +51,11 @@ long operation_count(std::span<const Expression> values, const std::set<std::str
         total += parts - 1 + (constant ? 1 : 0);
         break;
       case Kind::power:
-        total += node.operands()[1].is_number() ? power_cost(node.operands()[1].number())
-                                                : 2 * kFunction;
+        total +=
+            node.operands()[1].is_number() ? power_cost(node.operands()[1].number()) : 2 * function;
         break;
       case Kind::function:
-        total += kFunction;
+        total += function;
         break;
       case Kind::number:
       case Kind::symbol:

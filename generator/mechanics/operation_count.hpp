@@ -9,9 +9,9 @@
 
 namespace hamgen {
 
-// Additions, multiplications and divisions, a function or root counted as 10, shared nodes once.
-// What depends on no symbol of `varying` is computed beforehand and costs nothing.
+// Additions, multiplications and divisions, a root counted as 10, a function as so many, shared
+// nodes once.  What depends on no symbol of `varying` is computed beforehand and costs nothing.
 [[nodiscard]] long operation_count(std::span<const Expression> values,
-                                   const std::set<std::string>& varying);
+                                   const std::set<std::string>& varying, long function = 10);
 
 }  // namespace hamgen

@@ -125,15 +125,40 @@ class SumSplitter {
       const Touch more = touch(factor);
       mentioned = {mentioned.coordinates || more.coordinates, mentioned.momenta || more.momenta};
     }
+    Distances distances;
+    collect(summand.body, indices, distances);
+    for (const auto& [factor, divides] : summand.factors) collect(factor, indices, distances);
+    std::erase_if(distances, [](const auto& entry) { return entry.second.size() < 2; });
     const auto same = std::ranges::find_if(terms_, [&](const SumTerm& term) {
-      return term.ranges == ranges && term.touch == mentioned;
+      return term.ranges == ranges && term.touch == mentioned && fit(term.distances, distances);
     });
     if (same != terms_.end()) {
       same->summands.push_back(summand);
+      same->distances.merge(distances);
     } else {
-      terms_.push_back({ranges, mentioned, {summand}});
+      terms_.push_back({ranges, mentioned, {summand}, distances});
     }
     return true;
+  }
+  // Has none of the variables others in one than in the other?
+  static bool fit(const Distances& a, const Distances& b) {
+    return std::ranges::all_of(a, [&](const auto& entry) {
+      const auto other = b.find(entry.first);
+      return other == b.end() || other->second == entry.second;
+    });
+  }
+  void collect(const NodePtr& node, const std::vector<std::string>& indices,
+               Distances& found) const {
+    if (const auto* name = std::get_if<NameNode>(&node->value)) {
+      if (const Definition* definition = find_definition(model_, name->name))
+        return collect(definition->value, indices, found);
+      const auto subscript = name->subscript && touch(node) != Touch{}
+                                 ? affine(model_, name->subscript, indices)
+                                 : std::nullopt;
+      if (subscript) found[name->name].insert(subscript_text(*subscript));
+      return;
+    }
+    for_children(node, [&](const NodePtr& child) { collect(child, indices, found); });
   }
 
   [[nodiscard]] Touch touch(const NodePtr& node) const {

@@ -1,7 +1,9 @@
 // H as a sum of indexed sums.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,12 +45,18 @@ struct Touch {
   bool operator==(const Touch&) const = default;
 };
 
-// A sum of H: what is summed over the same indices and depends on the same part of the state
-// becomes one loop.
+// The subscripts that each variable has, where they are two or more: springs to the next element
+// and to the next but one are two sums, or algebra would add what both have of an element, and
+// differences would become sums that cancel.
+using Distances = std::map<std::string, std::set<std::string>>;
+
+// A sum of H: what is summed over the same indices, depends on the same part of the state and is
+// between elements of the same distances becomes one loop.
 struct SumTerm {
   std::vector<KernelRange> ranges;
   Touch touch;
   std::vector<Summand> summands;
+  Distances distances = {};
 };
 
 struct SplitSums {

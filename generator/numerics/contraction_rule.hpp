@@ -17,10 +17,18 @@
 // 3e-4 roundings a step by a slow one, a linear ring of 30 2e-4 by one of 1/36, 9e-5 by 1/80, and
 // nothing by 1/142.  Refinement begins at the iterate itself, down to 1/96, where what is
 // seen, in proportion to the contraction, is below the 1e-4 that a step may be off in the mean.
+//
+// Note [of one or of two]
+// Where coordinates move momenta and these the coordinates, two increments are in a ratio to each
+// other that says how differently both are missing, and the next two are in another: both ratios
+// together are the contraction of two (Cycle 2).  The next increment but one is that times the last
+// one, in either case.
+template <int Cycle>
 struct ContractionRule {
   FixedPointRule<2> rule;
-  Real contraction = largest;  // where nothing is known
+  Real contraction = largest;  // of so many increments; where nothing is known
   Real size = 0;               // of the last increment
+  Real past[Cycle] = {};       // and of those before it, the oldest first; 0: there was none
   Real round_off = 0;
   int work = 0;
   int unchecked = 0;
@@ -30,11 +38,14 @@ struct ContractionRule {
   void begin(int matrix_work) {
     rule.begin();
     size = 0;
+    for (Real& each : past) each = 0;
     work = matrix_work;
     settled = false;
   }
   Verdict operator()(const Distance& moved, int iterations) {
-    const Real before = size;
+    for (int k = 1; k < Cycle; ++k) past[k - 1] = past[k];
+    past[Cycle - 1] = size;
+    const Real before = past[0];
     Verdict verdict = rule.judge(moved, iterations);
     size = rule.size;
     round_off = moved.round_off();
@@ -48,37 +59,46 @@ struct ContractionRule {
     }
     settled = unchecked < 32 && is_lost(missing);
     if (settled) return Verdict::done;
-    // One increment alone says nothing of the contraction, and another may settle it; none at all,
+    // So few increments say nothing of the contraction, and another may settle it; none at all,
     // as in a state of equilibrium, never will.
-    const bool grows = before > 0 && 2 * size > before && size > 8 * round_off;
-    const bool goes_on =
-        before > 0 ? grows && work > 0 : contraction >= largest || is_lost(contraction * size);
+    const bool grows = before > 0 && of_two(2) * size > before && size > 8 * round_off;
+    const bool goes_on = before > 0 ? grows && work > 0 : contraction >= largest || is_lost(next());
     const bool may_go_on = size > 0 && iterations < 500;
     return verdict == Verdict::done && goes_on && may_go_on ? Verdict::go_on : verdict;
   }
   // Is the last increment made?  See Note [who has chosen the point].
-  bool moves() const { return settled || contraction * 96 <= 1; }
+  bool moves() const { return settled || contraction * of_two(96) <= 1; }
   // It may rise at once but falls slowly: one small increment may be luck.
   void learn(Real seen) {
     const bool first = contraction >= largest;
-    if (first || seen > contraction || 4 * seen > contraction) {
+    if (first || seen > contraction || of_two(4) * seen > contraction) {
       contraction = seen;
     } else {
-      contraction /= 4;
+      contraction /= of_two(4);
     }
     unchecked = 0;
   }
+  // Of one round of Refinement.
+  void learn_of_round(Real seen) { learn(of_two(seen)); }
   // Would so many rounds of Refinement cost more than the matrix?
   bool is_slow() const {
     if (work == 0 || contraction >= largest) return false;
     Real left = 1;
     for (int round = 0; round < work; ++round) left *= contraction;
-    return 2 * contraction > 1 || left * 8192 > 1;
+    return 2 * contraction > 1 || left * of_two(8192) > 1;
   }
 
  private:
+  // What one increment does is done twice by two.
+  static constexpr Real of_two(Real of_one) { return Cycle == 1 ? of_one : of_one * of_one; }
   bool is_lost(Real missing) const {
-    return contraction < 1 && contraction * contraction * missing * 1048576 <= round_off;
+    const Real of_next_but_one = Cycle == 1 ? contraction * contraction : contraction;
+    return contraction < 1 && of_next_but_one * missing * 1048576 <= round_off;
+  }
+  // The next increment; of two, if the one before it is not known, as if it fell by a 64th.
+  Real next() const {
+    if (Cycle == 1) return contraction * size;
+    return past[Cycle - 1] > 0 ? contraction * past[Cycle - 1] : size / 64;
   }
   // When it is tried again, things may have changed.
   Verdict give_up() {

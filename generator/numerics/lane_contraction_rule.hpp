@@ -1,7 +1,9 @@
 // When to stop a fixed point in each lane that starts near its end: as the rule of one trajectory
 // does (contraction_rule.hpp has the reasons).
+template <int Cycle>
 struct ContractionRule : FixedPointRule<2> {
-  Real contraction = largest;  // where nothing is known
+  Real contraction = largest;  // of so many increments; where nothing is known
+  Real past[Cycle] = {};       // increments before the last, the oldest first; 0: there was none
   Real round_off = 0;
   int work = 0;
   bool checks = false;
@@ -11,49 +13,66 @@ struct ContractionRule : FixedPointRule<2> {
   void begin(const Turn& turn, int matrix_work) {
     FixedPointRule<2>::begin(turn);
     size = 0;
+    for (Real& each : past) each = 0;
     work = matrix_work;
     checks = turn.is_check();
     settled = false;
   }
   Mask operator()(const Distance& moved, int iterations) {
+    for (int k = 1; k < Cycle; ++k) past[k - 1] = select(open, past[k], past[k - 1]);
+    past[Cycle - 1] = select(open, size, past[Cycle - 1]);
+    const Real& oldest = past[0];
     Judgement judgement = judge(moved, iterations);
     round_off = select(open, moved.round_off(), round_off);
-    const Mask second = before > 0;
-    learn(open & !judgement.failed & second & (size > 64 * round_off), size / before);
+    const Mask measured = oldest > 0;
+    learn(open & !judgement.failed & measured & (size > 64 * round_off), size / oldest);
     judgement.failed = judgement.failed | is_slow();
     // When it is tried again, things may have changed.
     if (work > 0) contraction = select(open & judgement.failed, Real(largest), contraction);
     // Of an increment that is mostly rounding, what is missing from before.
-    const Real expected = contraction * before;
-    const Real missing = select(second & (size <= round_off) & (expected < size), expected, size);
+    const Real expected = contraction * oldest;
+    const Real missing = select(measured & (size <= round_off) & (expected < size), expected, size);
     const Mask settles = open & !judgement.failed & !Mask(checks) & is_lost(missing);
     settled = settled | settles;
-    // One increment alone says nothing of the contraction, and another may settle it; none at all,
-    // as in a state of equilibrium, never will.
-    const Mask grows = (2 * size > before) & (size > 8 * round_off) & Mask(work > 0);
-    const Mask alone = (contraction >= largest) | is_lost(contraction * size);
+    // So few increments say nothing of the contraction, and another may settle it; none at all, as
+    // in a state of equilibrium, never will.
+    const Mask grows = (of_two(Real(2)) * size > oldest) & (size > 8 * round_off) & Mask(work > 0);
+    const Mask another = (contraction >= largest) | is_lost(next());
     const Mask goes_on =
-        (size > 0) & Mask(iterations < 500) & ((second & grows) | (alone & !second));
+        (size > 0) & Mask(iterations < 500) & ((measured & grows) | (another & !measured));
     judgement.done = settles | (judgement.done & !goes_on);
     return end(judgement);
   }
   // Is the last increment made?
-  Mask moves() const { return settled | (contraction * 96 <= 1); }
+  Mask moves() const { return settled | (contraction * of_two(Real(96)) <= 1); }
   // It may rise at once but falls slowly: one small increment may be luck.
   void learn(const Mask& lanes, const Real& seen) {
-    const Mask takes = (contraction >= largest) | (seen > contraction) | (4 * seen > contraction);
-    contraction = select(lanes, select(takes, seen, contraction / 4), contraction);
+    const Real fourth = of_two(Real(4));
+    const Mask takes =
+        (contraction >= largest) | (seen > contraction) | (fourth * seen > contraction);
+    contraction = select(lanes, select(takes, seen, contraction / fourth), contraction);
   }
+  // Of one round of Refinement.
+  void learn_of_round(const Mask& lanes, const Real& seen) { learn(lanes, of_two(seen)); }
   // Would so many rounds of Refinement cost more than the matrix?
   Mask is_slow() const {
     if (work == 0) return false;
     Real left = 1;
     for (int round = 0; round < work; ++round) left = left * contraction;
-    return (contraction < largest) & ((2 * contraction > 1) | (left * 8192 > 1));
+    const Mask slow = (2 * contraction > 1) | (left * of_two(Real(8192)) > 1);
+    return (contraction < largest) & slow;
   }
 
  private:
+  // What one increment does is done twice by two.
+  static Real of_two(const Real& of_one) { return Cycle == 1 ? of_one : of_one * of_one; }
   Mask is_lost(const Real& missing) const {
-    return (contraction < 1) & (contraction * contraction * missing * 1048576 <= round_off);
+    const Real of_next_but_one = Cycle == 1 ? contraction * contraction : contraction;
+    return (contraction < 1) & (of_next_but_one * missing * 1048576 <= round_off);
+  }
+  // The next increment; of two, if the one before it is not known, as if it fell by a 64th.
+  Real next() const {
+    if (Cycle == 1) return contraction * size;
+    return select(past[Cycle - 1] > 0, contraction * past[Cycle - 1], size / 64);
   }
 };

@@ -41,7 +41,7 @@ struct Refinement {
     const Real before = least;
     const Mask looked = open;
     round(lack, gradient);
-    if (second) rule.learn(looked & (before > 0), last / before);
+    if (second) rule.learn_of_round(looked & (before > 0), last / before);
     open = open & !rule.is_slow();
     return move(looked, point);
   }

@@ -68,7 +68,7 @@ struct Refinement {
     const Real before = least;
     const bool first = rounds == 1;
     const bool more = (*this)(point, lack, gradient);
-    if (first && before > 0) rule.learn(last / before);
+    if (first && before > 0) rule.learn_of_round(last / before);
     if (!more || !rule.is_slow()) return more;
     rounds = 0;
     for (int j = 0; j < Size; ++j) point[j] = at[j];

@@ -73,6 +73,7 @@ struct Reader {
     (*this)(alternate.second);
     found.objects.insert(alternate.patience.object);
     mention(alternate.between, found);
+    mention(alternate.before, found);
   }
   void operator()(const Factorise& factorise) const {
     found.objects.insert(factorise.matrix.object);
@@ -244,7 +245,8 @@ std::vector<const Body*> inner_bodies(const Instruction& instruction) {
   if (const auto* refine = std::get_if<Refine>(&instruction.value)) return {&refine->body};
   if (const auto* refine = std::get_if<RefineArray>(&instruction.value))
     return {&refine->first, &refine->body};
-  if (const auto* two = std::get_if<Alternate>(&instruction.value)) return {&two->between};
+  if (const auto* two = std::get_if<Alternate>(&instruction.value))
+    return {&two->before, &two->between};
   if (const auto* sweep = std::get_if<Sweep>(&instruction.value)) return {&sweep->body};
   if (const auto* repeat = std::get_if<Repeat>(&instruction.value)) return {&repeat->body};
   return {};

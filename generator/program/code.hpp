@@ -124,12 +124,16 @@ struct Call {
 // Calls one of two routines that may fail: the first, where that fails once more from where
 // `between` leads, for a prediction may lie further off than the state; and then the second, which
 // serves `steps` times before the first is tried again.  Where the second fails the routine ends
-// without success.
+// without success.  With `before`, which keeps the prediction, the first has one attempt, and the
+// second begins with what was kept.
 struct Alternate {
   Call first, second;
   Place patience;  // times that are left to the second
   int steps = 0;
-  Body between;  // after each failure of the first
+  Body between;      // after each failure of the first
+  Body before = {};  // the first
+
+  [[nodiscard]] int attempts() const { return before.empty() ? 2 : 1; }
 };
 // Factorises a matrix.  Where it is singular or not finite the routine ends without success, and
 // the report of an iteration says that its increment is not finite.

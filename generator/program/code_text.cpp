@@ -126,6 +126,7 @@ class Printer {
   }
   void operator()(const Alternate& alternate) {
     line("try:");
+    inside(alternate.before);
     inside({{alternate.first}});
     line(fmt::format("else, for {} steps:", alternate.steps));
     inside(alternate.between);

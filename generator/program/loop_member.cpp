@@ -76,6 +76,8 @@ class LoopMember : LoopStage {
                               .values = {0},
                               .type = "bool"});
     }
+    if (both() && !arrays_.reduced)
+      array("expected", unknowns(), "what the fixed point began with");
     if (arrays_.reduced && !velocity_) array("momentum", n_, "of zbar");
     array("slope", 2 * n_, raised() ? "grad K(zbar), dK/dq first" : "grad H(zbar), dH/dq first");
     if (iterates(arrays_))
@@ -105,8 +107,10 @@ class LoopMember : LoopStage {
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
     if (fixed_point() || both()) {
+      // Where q waits for p, and p for q, two increments are compared.
+      const auto* contraction = arrays_.reduced ? "ContractionRule<1>" : "ContractionRule<2>";
       start.fields.push_back(
-          {.name = "rule", .type = std::string(settles() ? "ContractionRule" : plan_.rule)});
+          {.name = "rule", .type = settles() ? contraction : std::string(plan_.rule)});
       start.fields.push_back(
           {.name = "refinement", .type = fmt::format("Refinement<{}, {}>", unknowns(), 2 * n_)});
     }
@@ -323,16 +327,30 @@ class LoopMember : LoopStage {
     const auto call = [&](const char* routine) {
       return Call{.routine = routine, .arguments = given(arguments_of_either())};
     };
-    Body between = from_state(b);
-    between.push_back({SetFlag{{"start", "known"}, false}});
-    b.body().push_back({Alternate{.first = call("contract"),
-                                  .second = call("newton"),
-                                  .patience = {"start", "patience"},
-                                  .steps = kStepsOfNewton,
-                                  .between = std::move(between)},
-                        {fmt::format("Newton where the fixed point contracts slowly, from the "
-                                     "state too, and then for {} steps.",
-                                     kStepsOfNewton)}});
+    Body before;
+    Body between;
+    if (arrays_.reduced) {
+      between = from_state(b);
+      between.push_back({SetFlag{{"start", "known"}, false}});
+    } else {
+      const Expression value = b.at("start", "value", {affine("i")});
+      const Expression expected = b.at("start", "expected", {affine("i")});
+      const auto copied = [&](const Expression& to, const Expression& from) {
+        return for_each(counting("i", unknowns()), {{Assign{to.name(), from}}});
+      };
+      before.push_back(copied(expected, value));
+      between.push_back(copied(value, expected));
+    }
+    b.body().push_back(
+        {Alternate{.first = call("contract"),
+                   .second = call("newton"),
+                   .patience = {"start", "patience"},
+                   .steps = kStepsOfNewton,
+                   .between = std::move(between),
+                   .before = std::move(before)},
+         {fmt::format("Newton where the fixed point contracts slowly{}, and then "
+                      "for {} steps.",
+                      arrays_.reduced ? ", from the state too" : "", kStepsOfNewton)}});
     b.body().push_back({Return{}});
   }
 

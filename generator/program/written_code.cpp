@@ -125,8 +125,18 @@ class RoutineWriter : public RunWriter {
   void operator()(const Alternate& node) {
     const Value patience = at(node.patience);
     if (form_.lanes) return alternate_in_lanes(node);
+    const auto turn_to_second = [&] {
+      add(Do{prefix("--", patience)});
+      branch(prefix("!", called(node.second)), Shape::line, [this] { fail(); });
+    };
+    const bool once = node.attempts() == 1;
     branch(joined("==", {patience, integer(0)}), Shape::braces, [&] {
+      if (once) {
+        write(node.before);
+        branch(called(node.first), Shape::braces, [&] { (*this)(hamgen::Return{}); });
+      }
       set(patience, integer(node.steps));
+      if (once) return write(node.between);
       attempt([&] {
         branch(called(node.first), Shape::braces, [&] {
           set(patience, integer(0));
@@ -135,10 +145,8 @@ class RoutineWriter : public RunWriter {
         write(node.between);
       });
     });
-    branch(joined(">", {patience, integer(0)}), Shape::braces, [&] {
-      add(Do{prefix("--", patience)});
-      branch(prefix("!", called(node.second)), Shape::line, [this] { fail(); });
-    });
+    if (once) return turn_to_second();
+    branch(joined(">", {patience, integer(0)}), Shape::braces, turn_to_second);
   }
 
   void operator()(const Factorise& node) {
@@ -294,15 +302,19 @@ class RoutineWriter : public RunWriter {
     const auto is_zero = [&](const char* sign) {
       return in_parentheses(joined(sign, {patience, integer(0)}));
     };
+    const bool once = node.attempts() == 1;
+    const auto try_first = [&] {
+      add(Define{"Mask", "tried ", lanes_in_turn()});
+      add(Define{"Mask", "found ", called(node.first)});
+      set(lanes_in_turn(), joined("&", {at({"tried "}), prefix("!", at({"found "}))}));
+      const Value none = prefix("!", call("any", {lanes_in_turn()}));
+      if (!once) branch(none, Shape::line, [&] { add(Break{}); });
+      write(node.between);
+      set(converged, joined("|", {converged, lanes_in_turn()}));
+    };
     narrow(is_zero("<="), Shape::braces, [&] {
-      attempt([&] {
-        add(Define{"Mask", "tried ", lanes_in_turn()});
-        add(Define{"Mask", "found ", called(node.first)});
-        set(lanes_in_turn(), joined("&", {at({"tried "}), prefix("!", at({"found "}))}));
-        branch(prefix("!", call("any", {lanes_in_turn()})), Shape::line, [&] { add(Break{}); });
-        write(node.between);
-        set(converged, joined("|", {converged, lanes_in_turn()}));
-      });
+      write(node.before);
+      once ? try_first() : attempt(try_first);
       set_number(patience, integer(node.steps), true);
     });
     narrow(is_zero(">"), Shape::braces, [&] {

@@ -177,8 +177,8 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bo
       arrays.method = ArrayMethod::fixed_point;
     } else {
       arrays.constant_matrix = has_constant_hessian(mechanics);
-      arrays.matrix_work = matrix_work(mechanics, *arrays.matrix);
-      const bool either = wish.kind == Wish::cheapest && arrays.reduced && !arrays.constant_matrix;
+      arrays.matrix_work = matrix_work(mechanics, *arrays.matrix, arrays.reduced);
+      const bool either = wish.kind == Wish::cheapest && !arrays.constant_matrix;
       if (either && arrays.matrix_work > 1) arrays.method = ArrayMethod::both;
     }
   }

@@ -138,6 +138,7 @@ class Outline {
   void operator()(const Alternate& alternate) {
     whole("alternate", alternate.patience);
     word("steps", {alternate.steps});
+    run(alternate.before);
     (*this)(alternate.first);
     run(alternate.between);
     (*this)(alternate.second);

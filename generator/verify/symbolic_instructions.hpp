@@ -119,6 +119,7 @@ struct SymbolicMachine::Run {
   }
   // Both, at the unknowns where each of them begins anew.
   void operator()(const Alternate& alternate) const {
+    m.run(frame, alternate.before);
     (*this)(alternate.first);
     m.run(frame, alternate.between);
     (*this)(alternate.second);

@@ -155,6 +155,8 @@ std::vector<BatchCase> iterated_cases() {
   newton.solver = "newton";
   Request composed;
   composed.scheme = "suzuki-4";
+  Request raised;
+  raised.order = 4;
   return {{"FixedPoint", kMixed, fixed_point, 0.05, 100, kMixedStarts, 4, {1, 4}},
           {"FixedPointOfThree", kCoupled, fixed_point, 0.05, 100, kMixedStarts, 2},
           {"Gauss", kMixed, gauss, 0.2, 100, kMixedStarts, 4, {1, 4}},
@@ -166,6 +168,8 @@ std::vector<BatchCase> iterated_cases() {
           in_loops("ChainByFixedPoint", kChain, fixed_point, 0.2, 3),
           in_loops("ChainByGauss", kChain, gauss, 0.4, 3),
           in_loops("ChainInSubsteps", kChain, composed, 0.4, 3),
+          in_loops("ChainOfOrderFour", kChain, raised, 0.4, 3),
+          in_loops("Ring", kRing, {}, 0.2, 3),
           in_loops("RingByNewton", kRing, newton, 0.1, 3),
           in_loops("RingByFixedPoint", kRing, fixed_point, 0.1, 3),
           in_loops("RingByGauss", kRing, gauss_newton, 0.2, 4)};

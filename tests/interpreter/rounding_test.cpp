@@ -66,5 +66,48 @@ TEST(Rounding, OfTornMomentaIsNotOneSided) {
   }
 }
 
+// By how much the momenta together change in 500 steps of a ring far from the origin.
+double change_of_total_momentum(const std::string& energy, const Request& request) {
+  constexpr std::size_t n = 40;
+  const SourceText source =
+      make_source("ring.ham",
+                  "system ring\nsize N = 40\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+                  "H = sum(i = 1..N, p[i]^2/2 + " +
+                      energy + ")\n");
+  std::vector<double> start(2 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    start[i] = 1e5 + std::sin(static_cast<double>(i));
+    start[n + i] = std::cos(static_cast<double>(3 * i));
+  }
+  Interpreter<double> run(make_program(source, request), {}, 0.1, start);
+  const auto total = [&] {
+    Exact sum = 0;
+    for (std::size_t i = n; i < 2 * n; ++i) sum += Exact(run.state()[i]) + run.carry()[i];
+    return sum;
+  };
+  const Exact before = total();
+  for (int step = 0; step < 500; ++step) EXPECT_TRUE(run.step().converged);
+  return static_cast<double>(total() - before);
+}
+
+// Where a ring closes, and where springs to the next element and to the next but one meet, forces
+// are those of differences: multiples of coordinates of 1e5 that cancel would push the ring by
+// 1e-11 in a step.
+TEST(Rounding, OfTheSpringsOfARingPushesItNowhere) {
+  const std::string next = "(q[i+1] - q[i])^2/2";
+  const std::string over = " + (q[i+2] - q[i])^2/6";
+  const std::string quartic = " + (q[i+1] - q[i])^4/4";
+  for (const auto& [energy, request] :
+       std::vector<std::pair<std::string, Request>>{{next, {}},
+                                                    {next, {.order = 4}},
+                                                    {next + over, {}},
+                                                    {next + over + quartic, {}},
+                                                    {next + quartic, {.scheme = "stormer-verlet"}},
+                                                    {next + over, {.scheme = "gauss-4"}}}) {
+    EXPECT_LT(std::abs(change_of_total_momentum(energy, request)), 0x1p-40)
+        << energy << " " << request.order;
+  }
+}
+
 }  // namespace
 }  // namespace hamgen

@@ -10,16 +10,19 @@ class ContractionRule : public ::testing::Test {
  protected:
   using Number = typename Blocks::Scalar;
   using Answer = typename Blocks::Answer;
-  using Rule = typename Blocks::Contraction;
+  using Rule = typename Blocks::template Contraction<1>;
+  using RuleOfTwo = typename Blocks::template Contraction<2>;
 
-  static Rule with_contraction(double contraction, int work = 0) {
-    Rule rule;
+  template <class Chosen = Rule>
+  static Chosen with_contraction(double contraction, int work = 0) {
+    Chosen rule;
     rule.learn(Number(contraction));
     rule.begin(work);
     return rule;
   }
   // An increment of so many units of rounding of a solution 1.
-  static Answer show(Rule& rule, double units, int iteration) {
+  template <class Chosen>
+  static Answer show(Chosen& rule, double units, int iteration) {
     typename Blocks::Moved distance;
     distance.add(Number(units) * Blocks::unit, Number(1));
     return rule(distance, iteration);
@@ -136,6 +139,76 @@ TYPED_TEST(ContractionRule, AlwaysComesToAnEnd) {
     }
     EXPECT_LE(iteration, 500) << units;
   }
+}
+
+// Where q waits for p and p for q: increments fall by a 4th and a 2^16th in turn, in this order or
+// in the other one, and two of them by a 2^18th.
+TYPED_TEST(ContractionRule, OfTwoIncrementsIsTheSameInEitherOrder) {
+  for (const int first : {2, 16}) {
+    typename TestFixture::RuleOfTwo rule;
+    rule.begin(0);
+    double units = 0x1p44;
+    for (int iteration = 1; iteration <= 4; ++iteration) {
+      EXPECT_EQ(this->show(rule, units, iteration), TypeParam::Answer::go_on);
+      EXPECT_EQ(double(rule.contraction) < 1, iteration > 2);
+      if (iteration > 2) {
+        EXPECT_EQ(double(rule.contraction), 0x1p-18);
+      }
+      units = std::ldexp(units, iteration % 2 == 1 ? -first : first - 18);
+    }
+  }
+}
+
+// The next increment but one is what the slopes are off by: 2^-24, 16 units and 2^20 are a unit.
+TYPED_TEST(ContractionRule, OfTwoIncrementsSettlesWhatIsLost) {
+  using Rule = typename TestFixture::RuleOfTwo;
+  auto rule = this->template with_contraction<Rule>(0x1p-24);
+  EXPECT_EQ(this->show(rule, 15, 1), TypeParam::Answer::done);
+  EXPECT_TRUE(rule.settled);
+  rule = this->template with_contraction<Rule>(0x1p-23);
+  EXPECT_EQ(this->show(rule, 15, 1), TypeParam::Answer::go_on);  // to a 64th of 15 units
+  EXPECT_EQ(this->show(rule, 10, 2), TypeParam::Answer::go_on);  // to 2^-23 times 15
+  EXPECT_FALSE(rule.settled);
+  rule = this->template with_contraction<Rule>(0x1p-23);
+  EXPECT_EQ(this->show(rule, 15, 1), TypeParam::Answer::go_on);
+  EXPECT_EQ(this->show(rule, 1, 2), TypeParam::Answer::done);
+  EXPECT_TRUE(rule.settled);
+}
+
+TYPED_TEST(ContractionRule, OfTwoIncrementsKnowsNothingBeforeTheThird) {
+  typename TestFixture::RuleOfTwo rule;
+  rule.begin(0);
+  EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::go_on);
+  EXPECT_EQ(this->show(rule, 0.25, 2), TypeParam::Answer::go_on);
+  EXPECT_EQ(this->show(rule, 0.01, 3), TypeParam::Answer::done);
+  EXPECT_FALSE(rule.settled);
+  // A round of Refinement is one increment.
+  rule.learn_of_round(0x1p-9);
+  EXPECT_EQ(double(rule.contraction), 0x1p-18);
+}
+
+// A small increment between two that are not tells nothing of how slow it is.
+TYPED_TEST(ContractionRule, OfTwoIncrementsGivesUpWhereTheMatrixIsCheaper) {
+  using Rule = typename TestFixture::RuleOfTwo;
+  EXPECT_FALSE(this->template with_contraction<Rule>(0.105 * 0.105, 4).is_slow());
+  EXPECT_TRUE(this->template with_contraction<Rule>(0.106 * 0.106, 4).is_slow());
+  EXPECT_FALSE(this->template with_contraction<Rule>(0.49, 26).is_slow());
+  EXPECT_TRUE(this->template with_contraction<Rule>(0.51, 26).is_slow());
+  for (const double third : {0.4, 0.6}) {
+    Rule rule;
+    rule.begin(26);
+    EXPECT_EQ(this->show(rule, 1e6, 1), TypeParam::Answer::go_on);
+    EXPECT_EQ(this->show(rule, 1e4, 2), TypeParam::Answer::go_on);
+    const auto verdict = this->show(rule, 1e6 * third, 3);
+    EXPECT_EQ(verdict == TypeParam::Answer::failed, third > 0.5);
+  }
+}
+
+// 128^-2: two times what is between 1/96 and less.
+TYPED_TEST(ContractionRule, OfTwoIncrementsMakesTheLastWhereEachContractsMuch) {
+  using Rule = typename TestFixture::RuleOfTwo;
+  EXPECT_TRUE(this->template with_contraction<Rule>(0x1p-14).moves());
+  EXPECT_FALSE(this->template with_contraction<Rule>(0x1p-13).moves());
 }
 
 // x = 1/8 x + b, from a point one unit away: what the rule has settled is taken as it is, else the

@@ -29,7 +29,7 @@ TEST(LaneRefinement, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
   for (int lane = 0; lane < kCount; ++lane) contraction.set(lane, contractions[lane]);
   for (const bool ruled : {false, true}) {
     lanes::Refinement<2, 2> together;
-    lanes::ContractionRule rule;
+    lanes::ContractionRule<1> rule;
     lanes::Real x[2] = {};
     lanes::Turn turn = turn_of_all();
     const auto points = [&](int lane, double(&point)[2]) {
@@ -74,7 +74,7 @@ TEST(LaneRefinement, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
     bool settled = false;
     for (int lane = 0; lane < kCount; ++lane) {
       of_double::Refinement<2, 2> alone;
-      of_double::ContractionRule other;
+      of_double::ContractionRule<1> other;
       double y[2] = {0, 0};
       points(lane, y);
       const double start[2] = {y[0], y[1]};
@@ -111,7 +111,7 @@ TEST(LaneRefinement, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
 int expect_small_unknowns_end_alike(double large, int units) {
   const double contractions[kCount] = {0, 0.25, -0.9, 0.45, 0.1, -0.3, 0.4, 0.75};
   const auto begin = [&](int lane) { return 1 + (lane % 3) * units * 0x1p-52; };
-  lanes::ContractionRule rule;
+  lanes::ContractionRule<1> rule;
   lanes::Refinement<2, 2> together;
   lanes::Turn turn = turn_of_all();
   lanes::Real turns = 1;
@@ -134,7 +134,7 @@ int expect_small_unknowns_end_alike(double large, int units) {
   }
   int settled = 0;
   for (int lane = 0; lane < kCount; ++lane) {
-    of_double::ContractionRule other;
+    of_double::ContractionRule<1> other;
     of_double::Refinement<2, 2> alone;
     double y[2] = {large, begin(lane)};
     other.contraction = 0x1p-20;

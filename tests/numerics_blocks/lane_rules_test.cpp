@@ -114,23 +114,24 @@ TEST(LaneRules, AFixedPointIsToldInEachLaneByItsStepBefore) {
   EXPECT_TRUE(all(rule.open));
 }
 
-TEST(LaneRules, AContractionEndsAndIsLearntInEachLaneAsAlone) {
+template <int Cycle>
+void expect_contraction_as_alone() {
   for (const int work : {0, 4}) {
     for (const double known : {0.0, 0x1p-14, 0x1p-9, 0.3}) {
-      lanes::ContractionRule rule;
-      of_double::ContractionRule alone;
+      lanes::ContractionRule<Cycle> rule;
+      of_double::ContractionRule<Cycle> alone;
       if (known > 0) rule.learn(true, known);
       if (known > 0) alone.learn(known);
       rule.begin(turn_of_all(), work);
       alone.begin(work);
       expect_ends_as_alone(rule, alone);
       for (const int batch : {0, 1}) {
-        lanes::ContractionRule together = rule;
+        lanes::ContractionRule<Cycle> together = rule;
         ask_together(batch, [&](const lanes::Real& size, int iteration) {
           return together(moved_by(size), iteration);
         });
         for (int lane = 0; lane < kCount; ++lane) {
-          of_double::ContractionRule other = alone;
+          of_double::ContractionRule<Cycle> other = alone;
           const Increments& increments = increments_of(batch, lane);
           end_alone(increments,
                     [&](double size, int iteration) { return other(moved_by(size), iteration); });
@@ -141,6 +142,10 @@ TEST(LaneRules, AContractionEndsAndIsLearntInEachLaneAsAlone) {
       }
     }
   }
+}
+TEST(LaneRules, AContractionEndsAndIsLearntInEachLaneAsAlone) {
+  expect_contraction_as_alone<1>();
+  expect_contraction_as_alone<2>();
 }
 
 // From what is known on, in a step that checks and in one that does not.
@@ -180,7 +185,7 @@ TEST(LaneRules, AllLanesCheckTheirContractionInTheSameStep) {
   for (int step = 1; step <= 64; ++step) {
     turn.begin(true);
     EXPECT_EQ(turn.is_check(), step % 32 == 0) << step;
-    lanes::ContractionRule rule;
+    lanes::ContractionRule<1> rule;
     rule.learn(true, 0x1p-14);
     rule.begin(turn, 0);
     rule(moved_by(lanes::Real(16 * 0x1p-52)), 1);

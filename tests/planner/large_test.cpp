@@ -77,7 +77,7 @@ TEST(LargePlan, NewtonStandsBehindTheFixedPointUnlessItIsAskedFor) {
                        "solver: fixed point, banded Newton of size 64 where it "
                        "contracts slowly; momenta torn out, in loops\n"))
       << both.plan;
-  EXPECT_TRUE(contains(both.header, "ContractionRule rule;"));
+  EXPECT_TRUE(contains(both.header, "ContractionRule<1> rule;"));
   EXPECT_TRUE(contains(both.header, "WaitingNewtonRule<2, 64> newton_rule;"));
   const Outcome newton = outcome(chain(64), {.solver = "newton"});
   EXPECT_TRUE(contains(newton.plan, "solver: banded Newton of size 64;")) << newton.plan;
@@ -85,17 +85,24 @@ TEST(LargePlan, NewtonStandsBehindTheFixedPointUnlessItIsAskedFor) {
   const Outcome fixed_point = outcome(chain(64), {.solver = "fixed-point"});
   EXPECT_TRUE(contains(fixed_point.plan, "solver: fixed point of size 64;")) << fixed_point.plan;
   EXPECT_FALSE(contains(fixed_point.header, "factorise"));
-  // Where momenta wait for coordinates, increments say nothing of the contraction.
+  // Where momenta wait for coordinates two increments say nothing of the contraction, three do.
   const Outcome coupled = outcome(
       "size N = 30\ncoordinate q[1..N] periodic\nmomentum p[1..N] periodic\n"
       "H = sum(i = 1..N, (q[i]^2 + p[i]^2)^2/4 + q[i]*q[i+1])\n");
-  EXPECT_TRUE(contains(coupled.plan, "solver: banded Newton of size 60")) << coupled.plan;
+  EXPECT_TRUE(contains(coupled.plan,
+                       "solver: fixed point, banded Newton of size 60 where it contracts slowly, "
+                       "in loops\n"))
+      << coupled.plan;
+  EXPECT_TRUE(contains(coupled.header, "ContractionRule<2> rule;"));
+  EXPECT_TRUE(contains(coupled.header, "WaitingNewtonRule<2, 60> newton_rule;"));
 }
 
 // K is loops over neighbours under the names of the model, and the gradient of H stays beside its.
 TEST(LargePlan, AMemberOfOrderFourTakesTheGradientOfAnotherSum) {
   const Outcome raised = outcome(chain(64), {.order = 4});
-  EXPECT_TRUE(contains(raised.plan, "solver: banded Newton of size 128, in loops\n"))
+  EXPECT_TRUE(contains(raised.plan,
+                       "solver: fixed point, banded Newton of size 128 where it contracts slowly, "
+                       "in loops\n"))
       << raised.plan;
   EXPECT_TRUE(contains(raised.plan, "K of order 4 in place of H: sums over neighbours, like H;"))
       << raised.plan;
