@@ -335,6 +335,7 @@ std::vector<Row> all_rows() {
     const Problem beating{.name = fmt::format("beating ring of {}", n),
                           .model = beating_ring(n),
                           .conserved = Conserved::invariant};
+    add(rows, beating, "midpoint", {});
     for (const char* solver : {"fixed-point", "newton"}) {
       add(rows, beating, fmt::format("midpoint, {}", solver), {.solver = solver});
       add(rows, beating, fmt::format("gauss-4, {}", solver),
