@@ -143,11 +143,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_0b11dba2::float64 {
+namespace hamgen_832cd4bd::float64 {
 using Real = double;
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_STEP_REPORT
-#define HAMGEN_0B11DBA2_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_832CD4BD_FLOAT64_STEP_REPORT
+#define HAMGEN_832CD4BD_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -157,15 +157,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_VOCABULARY
-#define HAMGEN_0B11DBA2_FLOAT64_VOCABULARY
+#ifndef HAMGEN_832CD4BD_FLOAT64_VOCABULARY
+#define HAMGEN_832CD4BD_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_TWO_SUM
-#define HAMGEN_0B11DBA2_FLOAT64_TWO_SUM
+#ifndef HAMGEN_832CD4BD_FLOAT64_TWO_SUM
+#define HAMGEN_832CD4BD_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -175,8 +175,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_SUM_WITH_REST
-#define HAMGEN_0B11DBA2_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_832CD4BD_FLOAT64_SUM_WITH_REST
+#define HAMGEN_832CD4BD_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -188,8 +188,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_SUMS
-#define HAMGEN_0B11DBA2_FLOAT64_SUMS
+#ifndef HAMGEN_832CD4BD_FLOAT64_SUMS
+#define HAMGEN_832CD4BD_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -240,8 +240,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_BAND_MATRIX
-#define HAMGEN_0B11DBA2_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_832CD4BD_FLOAT64_BAND_MATRIX
+#define HAMGEN_832CD4BD_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -306,8 +306,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_0B11DBA2_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_832CD4BD_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_832CD4BD_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -372,14 +372,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_VERDICT
-#define HAMGEN_0B11DBA2_FLOAT64_VERDICT
+#ifndef HAMGEN_832CD4BD_FLOAT64_VERDICT
+#define HAMGEN_832CD4BD_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_NEWTON_RULE
-#define HAMGEN_0B11DBA2_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_832CD4BD_FLOAT64_NEWTON_RULE
+#define HAMGEN_832CD4BD_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -549,8 +549,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_0B11DBA2_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_832CD4BD_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_832CD4BD_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -820,8 +820,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_0B11DBA2_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_832CD4BD_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_832CD4BD_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -844,17 +844,20 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_0B11DBA2_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_832CD4BD_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_832CD4BD_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
   // Over so many units of rounding, and from there `amplifier` times as far, what is not linear is
   // far below them, and Refinement goes on: in double 2^17 * 2^28 * 2^-52 of a unit, and of what is
-  // left after a contraction less than that. In float 16384 units are 2e-3 of a number, and 64 give
-  // 2^7 * 2^12 * 2^-23. In loops a round of that costs more than an iteration: there it is left
-  // less.
-  Real units = epsilon < Real(1e-10) ? 16384 : 64;
+  // left after a contraction less than that. In float 16384 units are 2e-3 of a number; 4 give
+  // 2^7 * 2^4 * 2^-23.
+  Real units = epsilon < Real(1e-10) ? 16384 : 4;
+  // In loops a round of Refinement costs more than an iteration: there it is left less.
+  void narrow() {
+    if (units > 64) units = 64;
+  }
   // What is less than this of the whole, far below what rounding takes from it, is not waited for:
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.
@@ -967,8 +970,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_0B11DBA2_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_832CD4BD_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_832CD4BD_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -1001,6 +1004,7 @@ struct ContractionRule {
   Real size = 0;               // of the last increment
   Real past[Cycle] = {};       // and of those before it, the oldest first; 0: there was none
   Real round_off = 0;
+  Real of_round = 1;
   int work = 0;
   int unchecked = 0;
   bool settled = false;
@@ -1049,14 +1053,34 @@ struct ContractionRule {
     }
     unchecked = 0;
   }
-  // Of one round of Refinement.
-  void learn_of_round(Real seen) { learn(of_two(seen)); }
-  // Would so many rounds of Refinement cost more than the matrix?
+  // Of rounds of Refinement: what so many behind the first one left of it.  Of two that is seen as
+  // far as a difference over so long a way tells; where it is less, it is what one did, twice.
+  void learn_of_rounds(int count, Real left, Real visible) {
+    if (count == 1) of_round = left;
+    if (count != Cycle) return;
+    if (Cycle == 1 || left > visible) return learn(left);
+    const Real twice = of_round * of_round;
+    learn(twice < visible ? twice : visible);
+  }
+  // Rounds that are asked for, where otherwise nothing would be known.
+  int rounds_asked() const {
+    return Cycle == 2 && (contraction >= largest || unchecked >= 32) ? 2 : 0;
+  }
+  // Would an iteration of Newton's, which costs as much as so many increments, come nearer by more
+  // than these?  By a fourth of all digits, as two to three of them come from a prediction to the
+  // solution.
   bool is_slow() const {
     if (work == 0 || contraction >= largest) return false;
     Real left = 1;
     for (int round = 0; round < work; ++round) left *= contraction;
-    return 2 * contraction > 1 || left * of_two(8192) > 1;
+    const Real of_digits = Cycle == 1 ? left * left : left;
+    return 2 * contraction > 1 || of_digits * of_digits > epsilon;
+  }
+  // Where it is: when it is tried again, things may have changed.
+  bool gives_up() {
+    const bool slow = is_slow();
+    if (slow) contraction = largest;
+    return slow;
   }
 
  private:
@@ -1071,7 +1095,6 @@ struct ContractionRule {
     if (Cycle == 1) return contraction * size;
     return past[Cycle - 1] > 0 ? contraction * past[Cycle - 1] : size / 64;
   }
-  // When it is tried again, things may have changed.
   Verdict give_up() {
     if (work > 0) contraction = largest;
     return Verdict::failed;
@@ -1079,8 +1102,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_REFINEMENT
-#define HAMGEN_0B11DBA2_FLOAT64_REFINEMENT
+#ifndef HAMGEN_832CD4BD_FLOAT64_REFINEMENT
+#define HAMGEN_832CD4BD_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1118,6 +1141,7 @@ struct Refinement {
   Real contraction = 1;          // what a round moved of what the one before did
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
+  int asked = 0;  // rounds that a rule wants to see behind the first
   bool changes = false;
   bool found = true;  // was the solution at the end, or does the map not contract?
 
@@ -1148,10 +1172,10 @@ struct Refinement {
       }
     }
     rule.settled = false;
-    const Real before = least;
-    const bool first = rounds == 1;
+    const int count = rounds;
+    if (count == 0) asked = rule.rounds_asked();
     const bool more = (*this)(point, lack, gradient);
-    if (first && before > 0) rule.learn_of_round(last / before);
+    if (count > 0 && begun > 0) rule.learn_of_rounds(count, last / begun, 8 / amplifier);
     if (!more || !rule.is_slow()) return more;
     rounds = 0;
     for (int j = 0; j < Size; ++j) point[j] = at[j];
@@ -1221,7 +1245,7 @@ struct Refinement {
     stuck = rounds == 0 || last < least ? 0 : stuck + 1;
     if (stuck == 0) least = last;
     const bool waits = open > epsilon * epsilon * begun;
-    const bool more = waits && stuck < 4 && rounds < 500;
+    const bool more = (waits || rounds < asked) && stuck < 4 && rounds < 500;
     rounds = more ? rounds + 1 : 0;
     found = !waits || more || far_off(lack) <= 0;
     return more;
@@ -1248,8 +1272,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_HISTORY
-#define HAMGEN_0B11DBA2_FLOAT64_HISTORY
+#ifndef HAMGEN_832CD4BD_FLOAT64_HISTORY
+#define HAMGEN_832CD4BD_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1350,8 +1374,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_0B11DBA2_FLOAT64_FORGET
-#define HAMGEN_0B11DBA2_FLOAT64_FORGET
+#ifndef HAMGEN_832CD4BD_FLOAT64_FORGET
+#define HAMGEN_832CD4BD_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1361,17 +1385,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_0b11dba2::float64
+}  // namespace hamgen_832cd4bd::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xe06585a8
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x4d355e5d
 namespace fput::implicit_midpoint {
-inline namespace emitted_e06585a8 {
+inline namespace emitted_4d355e5d {
 
-namespace numerics = ::hamgen_0b11dba2::float64;
+namespace numerics = ::hamgen_832cd4bd::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1503,7 +1527,7 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
   for (int iteration = 1;; ++iteration) {
     evaluate(par, k, z, carry, start);
     Distance distance;
-    distance.units = 64;
+    distance.narrow();
     distance.add(start.lack, start.value, z.q, n);
     const Verdict verdict = start.rule(distance, iteration);
     if (verdict == Verdict::go_on || start.rule.moves()) {
@@ -1527,7 +1551,7 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
       evaluate(par, k, z, carry, start);
     }
   }
-  if (start.rule.is_slow()) return false;
+  if (start.rule.gives_up()) return false;
   if (!start.refinement.found) {
     report.increment = start.refinement.last;
     return false;
@@ -1716,9 +1740,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_e06585a8
+}  // namespace emitted_4d355e5d
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xe06585a8
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x4d355e5d
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

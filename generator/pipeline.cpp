@@ -48,8 +48,9 @@ Stages stages_of(Model model, const Request& request) {
   Specialised system = choose_system(folded.model, scene, request);
   const HessianWish hessian = request.tangent ? HessianWish::exact : HessianWish::cheapest;
   StepEquations equations = discretise(system.mechanics, system.scheme, hessian);
-  const bool eigen = request.scalar->type->digits < 113;  // it does not know quad numbers
-  SolvePlan plan = plan_solve(equations, request.solver, eigen);
+  const auto numbers =
+      request.scalar->type->digits < 113 ? NumbersOf::processor : NumbersOf::library;
+  SolvePlan plan = plan_solve(equations, request.solver, numbers);
   drop_unused_parameters(plan.equations);
   equations.mechanics.parameters = plan.equations.mechanics.parameters;
   system.mechanics.parameters = plan.equations.mechanics.parameters;

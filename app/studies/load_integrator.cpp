@@ -103,17 +103,18 @@ runtime::Compiler compiler_for(const PluginSource& plugin, const CompilerChoice&
 // A long text, of a large system written out, takes the optimiser long: 600 kB of 56 unknowns 7, 39
 // and 83 s at -O0, -O1, -O3, so that -O1 costs 50 us a byte and -O3 as much again.  Of operations
 // that take some 5 ns at -O0 and half a nanosecond more at -O1 than at -O3 1e4 and 1e5 repay a
-// byte.  There an elimination by Eigen takes 4 ms at -O0, in a step of 2e4 operations: 1e7 make 2
-// s.
+// byte; of loops, of which 100 kB take 0.4, 0.7 and 1.3 s, 3e2 and 1e4.  In a long text an
+// elimination by Eigen takes 4 ms at -O0, in a step of 2e4 operations: 1e7 make 2 s.
 std::string optimisation_for(const PluginSource& plugin, double steps) {
   const double operations = steps * plugin.operations_per_step;
   const auto bytes = static_cast<double>(plugin.text.size());
-  const bool is_long = bytes > 1e5;
+  const bool is_long = bytes > 1e5 && !plugin.in_loops;
   // Eigen's eliminations are not counted.
-  const double without_eigen = is_long ? 1e4 * bytes : 1e6;
+  const double without_eigen = plugin.in_loops ? 3e2 * bytes : is_long ? 1e4 * bytes : 1e6;
   const double with_eigen = is_long ? 1e7 : 0;
   if (operations < (plugin.needs_eigen ? with_eigen : without_eigen)) return "-O0";
-  if (operations < (is_long ? 1e5 * bytes : 1e8) || plugin.needs_quadmath) return "-O1";
+  const double repaid = plugin.in_loops ? 1e4 * bytes : is_long ? 1e5 * bytes : 1e8;
+  if (operations < repaid || plugin.needs_quadmath) return "-O1";
   if (plugin.has_stages && operations < 5e9) return "-O2";
   return "-O3";
 }

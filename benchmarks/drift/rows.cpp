@@ -28,12 +28,12 @@ std::string pushed_chain(int n) {
       n);
 }
 
-std::string beating_ring(int n) {
+std::string beating_ring(int n, const std::string& coupling) {
   return fmt::format(
-      "system ring\nsize N = {}\ncoordinate q[1..N] periodic\nmomentum p[1..N] periodic\n"
-      "H = sum(i = 1..N, (q[i]^2 + p[i]^2)^2/4 + q[i]*q[i+1]/30 + p[i]*p[i+1]/30)\n"
+      "system ring\nsize N = {0}\ncoordinate q[1..N] periodic\nmomentum p[1..N] periodic\n"
+      "H = sum(i = 1..N, (q[i]^2 + p[i]^2)^2/4 + {1}*q[i]*q[i+1] + {1}*p[i]*p[i+1])\n"
       "invariant A = sum(i = 1..N, q[i]^2 + p[i]^2)\n",
-      n);
+      n, coupling);
 }
 
 std::string list_of(int n, const std::string& value) {
@@ -342,6 +342,13 @@ std::vector<Row> all_rows() {
           {.scheme = "gauss-4", .solver = solver});
     }
   }
+  const Problem coupled{.name = "beating ring of 30, c = 1/5, h = 0.3",
+                        .model = beating_ring(30, "1/5"),
+                        .conserved = Conserved::invariant,
+                        .h = 0.3};
+  add(rows, coupled, "midpoint", {});
+  add(rows, coupled, "midpoint, fixed-point", {.solver = "fixed-point"});
+  add(rows, coupled, "midpoint, newton", {.solver = "newton"});
   for (const auto& [k, h] : {std::pair("1", 1.8), std::pair("1.3", 0.1), std::pair("0.9", 2.0)}) {
     const Problem uneven{.name = fmt::format("uneven chain of 25, k = {}, h = {}", k, h),
                          .model = uneven_chain(25, k),

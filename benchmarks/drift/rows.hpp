@@ -18,7 +18,7 @@ namespace hamgen::drift {
 [[nodiscard]] std::string kepler();              // L is its first invariant
 [[nodiscard]] std::string planar_bodies(int n);  // soft attraction, all pairs; L
 // Oscillators whose frequency is their energy, weakly coupled in coordinates and momenta.
-[[nodiscard]] std::string beating_ring(int n);
+[[nodiscard]] std::string beating_ring(int n, const std::string& coupling = "1/30");
 // A member whose alpha is a list: the sums are written out whatever n is.
 [[nodiscard]] std::string list_of(int n, const std::string& value);
 

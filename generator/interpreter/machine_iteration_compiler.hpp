@@ -143,7 +143,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
       }
       refinement.get_slope(span(slope));
       refinement.get_change(span(change));
-      if (gives_up && object(start).contractions.at(rule)->is_slow()) return false;
+      if (gives_up && object(start).contractions.at(rule)->gives_up()) return false;
       if (this->is_found(refinement)) return true;
       if (steps_of_other > 0) object(start).flags.at(patience) = steps_of_other;
       return false;

@@ -72,7 +72,7 @@ class MachineIterations : public MachineAddresses<Real> {
     std::vector<Seen> seen(arrays);
     std::size_t next = 0;
     Distance distance;
-    if (is_in_loops) distance.units = kUnitsInLoops;
+    if (is_in_loops) distance.narrow();
     each([&](const Array2& u) {
       const Real value = m_.frame.at(u.value);
       const Real increment = m_.frame.at(u.increment);

@@ -115,8 +115,8 @@ struct AnyFixedPointRule {
   [[nodiscard]] bool moves() {
     return ask([](const auto& rule) { return rule.moves(); });
   }
-  [[nodiscard]] bool is_slow() {
-    return ask([](const auto& rule) { return rule.is_slow(); });
+  bool gives_up() {
+    return ask([](auto& rule) { return rule.gives_up(); });
   }
   // For Refinement; none if it is no ContractionRule.
   template <int Cycle>

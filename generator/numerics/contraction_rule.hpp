@@ -30,6 +30,7 @@ struct ContractionRule {
   Real size = 0;               // of the last increment
   Real past[Cycle] = {};       // and of those before it, the oldest first; 0: there was none
   Real round_off = 0;
+  Real of_round = 1;
   int work = 0;
   int unchecked = 0;
   bool settled = false;
@@ -78,14 +79,34 @@ struct ContractionRule {
     }
     unchecked = 0;
   }
-  // Of one round of Refinement.
-  void learn_of_round(Real seen) { learn(of_two(seen)); }
-  // Would so many rounds of Refinement cost more than the matrix?
+  // Of rounds of Refinement: what so many behind the first one left of it.  Of two that is seen as
+  // far as a difference over so long a way tells; where it is less, it is what one did, twice.
+  void learn_of_rounds(int count, Real left, Real visible) {
+    if (count == 1) of_round = left;
+    if (count != Cycle) return;
+    if (Cycle == 1 || left > visible) return learn(left);
+    const Real twice = of_round * of_round;
+    learn(twice < visible ? twice : visible);
+  }
+  // Rounds that are asked for, where otherwise nothing would be known.
+  int rounds_asked() const {
+    return Cycle == 2 && (contraction >= largest || unchecked >= 32) ? 2 : 0;
+  }
+  // Would an iteration of Newton's, which costs as much as so many increments, come nearer by more
+  // than these?  By a fourth of all digits, as two to three of them come from a prediction to the
+  // solution.
   bool is_slow() const {
     if (work == 0 || contraction >= largest) return false;
     Real left = 1;
     for (int round = 0; round < work; ++round) left *= contraction;
-    return 2 * contraction > 1 || left * of_two(8192) > 1;
+    const Real of_digits = Cycle == 1 ? left * left : left;
+    return 2 * contraction > 1 || of_digits * of_digits > epsilon;
+  }
+  // Where it is: when it is tried again, things may have changed.
+  bool gives_up() {
+    const bool slow = is_slow();
+    if (slow) contraction = largest;
+    return slow;
   }
 
  private:
@@ -100,7 +121,6 @@ struct ContractionRule {
     if (Cycle == 1) return contraction * size;
     return past[Cycle - 1] > 0 ? contraction * past[Cycle - 1] : size / 64;
   }
-  // When it is tried again, things may have changed.
   Verdict give_up() {
     if (work > 0) contraction = largest;
     return Verdict::failed;

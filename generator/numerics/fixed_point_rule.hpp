@@ -3,10 +3,13 @@
 struct Distance {
   // Over so many units of rounding, and from there `amplifier` times as far, what is not linear is
   // far below them, and Refinement goes on: in double 2^17 * 2^28 * 2^-52 of a unit, and of what is
-  // left after a contraction less than that. In float 16384 units are 2e-3 of a number, and 64 give
-  // 2^7 * 2^12 * 2^-23. In loops a round of that costs more than an iteration: there it is left
-  // less.
-  Real units = epsilon < Real(1e-10) ? 16384 : 64;
+  // left after a contraction less than that. In float 16384 units are 2e-3 of a number; 4 give
+  // 2^7 * 2^4 * 2^-23.
+  Real units = epsilon < Real(1e-10) ? 16384 : 4;
+  // In loops a round of Refinement costs more than an iteration: there it is left less.
+  void narrow() {
+    if (units > 64) units = 64;
+  }
   // What is less than this of the whole, far below what rounding takes from it, is not waited for:
   // ahead of a wave every unknown is so much smaller than the one before it that an iteration
   // brings one after the other to its end.

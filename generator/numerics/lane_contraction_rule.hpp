@@ -5,6 +5,7 @@ struct ContractionRule : FixedPointRule<2> {
   Real contraction = largest;  // of so many increments; where nothing is known
   Real past[Cycle] = {};       // increments before the last, the oldest first; 0: there was none
   Real round_off = 0;
+  Real of_round = 1;
   int work = 0;
   bool checks = false;
   Mask settled = false;
@@ -52,15 +53,27 @@ struct ContractionRule : FixedPointRule<2> {
         (contraction >= largest) | (seen > contraction) | (fourth * seen > contraction);
     contraction = select(lanes, select(takes, seen, contraction / fourth), contraction);
   }
-  // Of one round of Refinement.
-  void learn_of_round(const Mask& lanes, const Real& seen) { learn(lanes, of_two(seen)); }
-  // Would so many rounds of Refinement cost more than the matrix?
+  // Of rounds of Refinement.
+  void learn_of_rounds(const Mask& lanes, int count, const Real& left, const Real& visible) {
+    if (count == 1) of_round = select(lanes, left, of_round);
+    if (count != Cycle) return;
+    const Real twice = of_round * of_round;
+    const Real hidden = select(twice < visible, twice, visible);
+    learn(lanes, select(Mask(Cycle == 1) | (left > visible), left, hidden));
+  }
+  Mask rounds_asked() const { return Mask(Cycle == 2) & ((contraction >= largest) | Mask(checks)); }
+  // Would an iteration of Newton's, which costs as much, come nearer by more?
   Mask is_slow() const {
     if (work == 0) return false;
     Real left = 1;
     for (int round = 0; round < work; ++round) left = left * contraction;
-    const Mask slow = (2 * contraction > 1) | (left * of_two(Real(8192)) > 1);
-    return (contraction < largest) & slow;
+    const Real of_digits = Cycle == 1 ? left * left : left;
+    return (contraction < largest) & ((2 * contraction > 1) | (of_digits * of_digits > epsilon));
+  }
+  Mask gives_up() {
+    const Mask slow = is_slow();
+    contraction = select(slow, Real(largest), contraction);
+    return slow;
   }
 
  private:

@@ -23,6 +23,7 @@ struct Refinement {
   Real stuck = 0;                // rounds that moved no less
   Mask open = false;             // lanes that want more
   Mask found = true;             // lanes where the solution was at the end
+  Mask asked = false;            // lanes of which a rule wants to see two rounds more
   int rounds = 0;
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
@@ -31,17 +32,18 @@ struct Refinement {
   template <class Rule>
   bool operator()(const Turn& turn, Rule& rule, Real* point, const Real* lack,
                   const Real* gradient) {
-    const bool second = rounds == 1;
+    const int count = rounds;
     if (rounds == 0) {
+      asked = rule.rounds_asked();
       rule.settled = turn.lanes & rule.settled;
       if (goes_ahead(rule, point, lack)) return true;
       begin(turn.lanes, point, lack, gradient);
       open = open & !rule.settled;
     }
-    const Real before = least;
     const Mask looked = open;
     round(lack, gradient);
-    if (second) rule.learn_of_round(looked & (before > 0), last / before);
+    if (count > 0)
+      rule.learn_of_rounds(looked & (begun > 0), count, last / begun, Real(8 / amplifier));
     open = open & !rule.is_slow();
     return move(looked, point);
   }
@@ -117,7 +119,8 @@ struct Refinement {
     stuck = select(decreased, Real(0), stuck + 1);
     least = select(decreased, last, least);
     const Mask waits = open & (lacking > epsilon * epsilon * begun);
-    open = waits & (stuck < 4) & Mask(rounds < 500);
+    const Mask goes_on = waits | (open & asked & Mask(rounds < 2));
+    open = goes_on & (stuck < 4) & Mask(rounds < 500);
     const Mask ends = waits & !open;
     if (any(ends)) found = found & ((!ends) | (far_off(lack) <= 0));
   }

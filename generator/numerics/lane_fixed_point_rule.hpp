@@ -2,6 +2,7 @@
 struct Distance {
   // Over so many units of rounding what is not linear is far below them.
   double units = 16384;
+  void narrow() { units = 64; }  // in loops
   // What is less than this of the whole is not waited for.
   static constexpr double lost = epsilon * epsilon * epsilon;
   // What is rounded like this.

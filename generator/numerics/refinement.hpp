@@ -35,6 +35,7 @@ struct Refinement {
   Real contraction = 1;          // what a round moved of what the one before did
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
+  int asked = 0;  // rounds that a rule wants to see behind the first
   bool changes = false;
   bool found = true;  // was the solution at the end, or does the map not contract?
 
@@ -65,10 +66,10 @@ struct Refinement {
       }
     }
     rule.settled = false;
-    const Real before = least;
-    const bool first = rounds == 1;
+    const int count = rounds;
+    if (count == 0) asked = rule.rounds_asked();
     const bool more = (*this)(point, lack, gradient);
-    if (first && before > 0) rule.learn_of_round(last / before);
+    if (count > 0 && begun > 0) rule.learn_of_rounds(count, last / begun, 8 / amplifier);
     if (!more || !rule.is_slow()) return more;
     rounds = 0;
     for (int j = 0; j < Size; ++j) point[j] = at[j];
@@ -138,7 +139,7 @@ struct Refinement {
     stuck = rounds == 0 || last < least ? 0 : stuck + 1;
     if (stuck == 0) least = last;
     const bool waits = open > epsilon * epsilon * begun;
-    const bool more = waits && stuck < 4 && rounds < 500;
+    const bool more = (waits || rounds < asked) && stuck < 4 && rounds < 500;
     rounds = more ? rounds + 1 : 0;
     found = !waits || more || far_off(lack) <= 0;
     return more;

@@ -201,8 +201,6 @@ struct IterateArray {
   std::optional<Place> factorised = {};
   std::string residual = {};
 };
-// Of rounding that a ContractionRule's iteration may leave of an unknown: see Distance.
-inline constexpr int kUnitsInLoops = 64;
 // That Newton has, once a fixed point was slow, before it is tried again.
 inline constexpr int kStepsOfNewton = 32;
 // What is said where it is emitted.

@@ -61,8 +61,8 @@ class LoopStage {
   [[nodiscard]] bool has_rest() const { return iterates(arrays_) || is_explicit(); }
   // Does Newton's matrix change with the stage?
   [[nodiscard]] bool is_sharp() const { return (newton() && !is_linear()) || both(); }
-  // Is there a ContractionRule?  Alone it has to know that the size of all increments together falls
-  // from one iteration to the next: q does not wait for p.
+  // Is there a ContractionRule?  Alone it has to know that the size of all increments together
+  // falls from one iteration to the next: q does not wait for p.
   [[nodiscard]] bool settles() const {
     return both() || (fixed_point() && arrays_.reduced && plan_.rule == kFixedPointRule);
   }

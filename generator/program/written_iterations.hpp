@@ -72,7 +72,7 @@ class IterationWriter : public RuleWriter {
       if (begins) return;
       branch(at({"more "}), Shape::braces, [&] { write(refine.body); });
     })});
-    if (refine.gives_up) give_up(action("ContractionRule", {"start", refine.rule}, "is_slow", {}));
+    if (refine.gives_up) give_up(action("ContractionRule", {"start", refine.rule}, "gives_up", {}));
     require_found(refine.refinement, refine.patience, refine.steps);
   }
 
@@ -252,7 +252,7 @@ class IterationWriter : public RuleWriter {
       if (form_.lanes && newton) set(lanes_in_turn(), at({"start", iterate.name + ".open"}));
       write(iterate.body);
       add(Declare{"Distance", {"distance "}});
-      if (iterate.work) set(at({"distance ", "units"}), integer(kUnitsInLoops));
+      if (iterate.work) add(Do{action("Distance", {"distance "}, "narrow", {})});
       distance_of(iterate);
       // In a loop of their own: g++ 12.2 -O3 loses the last stores where both are in one.
       if (iterate.lanes > 0) write({{moved_in_lanes(iterate)}});

@@ -11,14 +11,19 @@ namespace {
 // By a half an iteration it would have come as far as the rule asks for; where q and p move each
 // other, by a half in two of them.
 constexpr int kMostWork = 13;
-// A sine takes 11 ns where 30 operations in lanes, or some of them, take 2 to 15.
-constexpr long kFunction = 30;
 // An unknown's part in the equations besides the gradient: its momentum, what it lacks, its sums.
 constexpr double kOfUnknown = 10;
-// A row of a band waits for the row before it: its division, and the choice of a pivot.
-constexpr double kOfBandRow = 100;
-// Without the pivot, and with half of the products: 12 ns for 26 of a width of 1, 49 for 59 of 8.
-constexpr double kOfSymmetricRow = 45;
+// In operations, what is no such one.
+struct Prices {
+  long function;
+  double band_row, symmetric_row;
+};
+// A sine takes 11 ns where 30 operations in lanes, or some of them, take 2 to 15.  A row of a band
+// waits for the row before it: its division, and the choice of a pivot; without the pivot, and with
+// half of the products, 12 ns for 26 of a width of 1, 49 for 59 of 8.
+constexpr Prices kOfProcessor{.function = 30, .band_row = 100, .symmetric_row = 45};
+// Of a library, where each operation takes some 30 ns, nothing waits for another.
+constexpr Prices kOfLibrary{.function = 50, .band_row = 10, .symmetric_row = 10};
 // A row of Eigen's sparse matrix, whose entries are sorted and whose fill-in is looked up.
 constexpr double kOfSparseRow = 20000;
 
@@ -27,7 +32,7 @@ struct Counts {
   double hessian = 0;
 };
 
-Counts count(const Mechanics& mechanics) {
+Counts count(const Mechanics& mechanics, long function) {
   Counts counts;
   for (const Kernel& kernel : mechanics.kernels) {
     double instances = 0;
@@ -40,20 +45,20 @@ Counts count(const Mechanics& mechanics) {
     const auto entries = static_cast<double>(second.size());
     counts.gradient +=
         instances *
-        (static_cast<double>(operation_count(kernel.gradient, varying, kFunction)) + slots);
+        (static_cast<double>(operation_count(kernel.gradient, varying, function)) + slots);
     counts.hessian +=
-        instances * (static_cast<double>(operation_count(second, varying, kFunction)) + entries);
+        instances * (static_cast<double>(operation_count(second, varying, function)) + entries);
   }
   return counts;
 }
 
-double elimination(const ArrayMatrix& matrix) {
+double elimination(const ArrayMatrix& matrix, const Prices& prices) {
   const double size = matrix.size;
   const double width = matrix.bandwidth;
   switch (matrix.kind) {
     case MatrixKind::band:
-      return matrix.symmetric ? size * (kOfSymmetricRow + 3 * width * width)
-                              : size * (kOfBandRow + 6 * width * width);
+      return matrix.symmetric ? size * (prices.symmetric_row + 3 * width * width)
+                              : size * (prices.band_row + 6 * width * width);
     case MatrixKind::dense:
     case MatrixKind::eigen_dense:
       return 2 * size * size * size / 3;
@@ -65,10 +70,12 @@ double elimination(const ArrayMatrix& matrix) {
 
 }  // namespace
 
-int matrix_work(const Mechanics& mechanics, const ArrayMatrix& matrix, bool reduced) {
-  const Counts counts = count(mechanics);
+int matrix_work(const Mechanics& mechanics, const ArrayMatrix& matrix, bool reduced,
+                NumbersOf numbers) {
+  const Prices& prices = numbers == NumbersOf::processor ? kOfProcessor : kOfLibrary;
+  const Counts counts = count(mechanics, prices.function);
   const double evaluation = counts.gradient + kOfUnknown * matrix.size;
-  const double work = (counts.hessian + elimination(matrix)) / evaluation;
+  const double work = (counts.hessian + elimination(matrix, prices)) / evaluation;
   const double most = reduced ? kMostWork : 2 * kMostWork;
   return static_cast<int>(std::clamp(work + 0.5, 1.0, most));
 }

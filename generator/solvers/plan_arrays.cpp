@@ -141,7 +141,8 @@ bool uses_eigen(const ArrayPlan& plan) {
                          plan.matrix->kind == MatrixKind::eigen_sparse);
 }
 
-SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bool eigen) {
+SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, NumbersOf numbers) {
+  const bool eigen = numbers == NumbersOf::processor;
   using Wish = SolverWish::Kind;
   SolvePlan plan{.equations = equations};
   if (wish.kind == Wish::sweeps) plan.sweeps = wish.sweeps;
@@ -177,7 +178,7 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, bo
       arrays.method = ArrayMethod::fixed_point;
     } else {
       arrays.constant_matrix = has_constant_hessian(mechanics);
-      arrays.matrix_work = matrix_work(mechanics, *arrays.matrix, arrays.reduced);
+      arrays.matrix_work = matrix_work(mechanics, *arrays.matrix, arrays.reduced, numbers);
       const bool either = wish.kind == Wish::cheapest && !arrays.constant_matrix;
       if (either && arrays.matrix_work > 1) arrays.method = ArrayMethod::both;
     }

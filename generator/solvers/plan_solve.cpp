@@ -280,8 +280,8 @@ LinearSolver linear_solver(const Block& block) {
 
 namespace {
 
-SolvePlan plan_member(const StepEquations& equations, const SolverWish& wish, bool eigen) {
-  if (equations.mechanics.keeps_sums()) return plan_arrays(equations, wish, eigen);
+SolvePlan plan_member(const StepEquations& equations, const SolverWish& wish, NumbersOf numbers) {
+  if (equations.mechanics.keeps_sums()) return plan_arrays(equations, wish, numbers);
   SolvePlan plan{.equations = equations};
   if (wish.kind == SolverWish::Kind::sweeps) plan.sweeps = wish.sweeps;
   const std::vector<int> needed = needed_stages(equations);
@@ -300,10 +300,11 @@ SolvePlan plan_member(const StepEquations& equations, const SolverWish& wish, bo
 
 }  // namespace
 
-SolvePlan plan_solve(const StepEquations& equations, const SolverChoice& solver, bool eigen) {
+SolvePlan plan_solve(const StepEquations& equations, const SolverChoice& solver,
+                     NumbersOf numbers) {
   const bool is_member = equations.scheme.has_member();
   SolvePlan plan =
-      is_member ? plan_member(equations, *solver, eigen) : plan_without_member(equations, solver);
+      is_member ? plan_member(equations, *solver, numbers) : plan_without_member(equations, solver);
   plan.rule = solver->rule;
   plan.ahead = waits_for_functions(plan);
   if (const auto* composition = std::get_if<Composition>(&equations.scheme.method)) {

@@ -78,9 +78,12 @@ struct SolvePlan {
   [[nodiscard]] bool is_explicit() const;
 };
 
-// Throws UsageError for a solver that the step has not.  `eigen`: Eigen knows the scalar.
+// Who adds and multiplies: the processor, or for quad numbers, which Eigen does not know, a
+// library.
+enum class NumbersOf { processor, library };
+// Throws UsageError for a solver that the step has not.
 [[nodiscard]] SolvePlan plan_solve(const StepEquations& equations, const SolverChoice& solver,
-                                   bool eigen = true);
+                                   NumbersOf numbers = NumbersOf::processor);
 [[nodiscard]] bool uses_eigen(const ArrayPlan& plan);
 // Is there an iteration, with start values from earlier steps?
 [[nodiscard]] bool iterates(const ArrayPlan& plan);
@@ -88,7 +91,7 @@ struct SolvePlan {
 [[nodiscard]] SolvePlan plan_without_member(const StepEquations& equations,
                                             const SolverChoice& solver);
 [[nodiscard]] SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish,
-                                    bool eigen);
+                                    NumbersOf numbers);
 [[nodiscard]] LinearSolver linear_solver(const Block& block);
 [[nodiscard]] std::string to_text(const SolvePlan& plan);
 // What is said of SolvePlan::ahead.

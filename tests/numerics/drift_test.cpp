@@ -257,12 +257,13 @@ TEST(Drift, AFixedPointIsRefinedFromAfar) {
 
 // In float so far a difference is not linear.
 TEST(Drift, AFixedPointInFloatIsRefinedFromNearerBy) {
-  expect_drift_only_with({{"? 16384 : 64", "? 16384 : 16384"}},
-                         {.model = beating_ring(30),
+  expect_drift_only_with({{"? 16384 : 4", "? 16384 : 64"}},
+                         {.model = beating_ring(30, "1/5"),
                           .request = {.solver = "fixed-point"},
                           .conserved = Conserved::invariant,
+                          .h = 0.3,
                           .scalar = "float"},
-                         {.steps = 20'000});
+                         {.steps = 100'000});
 }
 
 // Below: whose image its iterate is, rounding has chosen.

@@ -1,5 +1,7 @@
 // When the fixed point of a step is left as it is, when Refinement goes on, and when Newton takes
 // over.
+#include <cmath>
+
 #include "tests/numerics_blocks/every_scalar.hpp"
 
 namespace hamgen::numerics_blocks_test {
@@ -24,6 +26,7 @@ class ContractionRule : public ::testing::Test {
   template <class Chosen>
   static Answer show(Chosen& rule, double units, int iteration) {
     typename Blocks::Moved distance;
+    distance.units = 64;  // in float, too
     distance.add(Number(units) * Blocks::unit, Number(1));
     return rule(distance, iteration);
   }
@@ -89,16 +92,22 @@ TYPED_TEST(ContractionRule, LooksAgainAfter32Steps) {
   EXPECT_FALSE(rule.settled);
 }
 
-// A matrix of the work 4 is worth it where 4 rounds leave more than 2^-13: from 2^-13/4 on.
+// A matrix of the work 4 is worth it where 4 rounds leave more than the fourth root of a unit of
+// rounding: in double from 2^-13/4 on.
 TYPED_TEST(ContractionRule, GivesUpWhereTheMatrixIsCheaper) {
-  EXPECT_FALSE(this->with_contraction(0.105, 4).is_slow());
-  EXPECT_TRUE(this->with_contraction(0.106, 4).is_slow());
+  const double most = std::pow(static_cast<double>(TypeParam::unit), 1.0 / 16);
+  EXPECT_FALSE(this->with_contraction(0.99 * most, 4).is_slow());
+  EXPECT_TRUE(this->with_contraction(1.01 * most, 4).is_slow());
   EXPECT_TRUE(this->with_contraction(0.51, 13).is_slow());
   EXPECT_FALSE(this->with_contraction(0.9, 0).is_slow());
-  auto rule = this->with_contraction(0.3, 4);
+  auto rule = this->with_contraction(0.4, 4);
   EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::failed);
   rule.begin(4);
   EXPECT_FALSE(rule.is_slow());  // it is tried again
+  // And where Refinement has found it.
+  rule = this->with_contraction(0.4, 4);
+  EXPECT_TRUE(rule.gives_up());
+  EXPECT_FALSE(rule.gives_up());
 }
 
 // Increments that grow from next to rounding on end in no solution.
@@ -182,19 +191,59 @@ TYPED_TEST(ContractionRule, OfTwoIncrementsKnowsNothingBeforeTheThird) {
   EXPECT_EQ(this->show(rule, 0.25, 2), TypeParam::Answer::go_on);
   EXPECT_EQ(this->show(rule, 0.01, 3), TypeParam::Answer::done);
   EXPECT_FALSE(rule.settled);
-  // A round of Refinement is one increment.
-  rule.learn_of_round(0x1p-9);
-  EXPECT_EQ(double(rule.contraction), 0x1p-18);
+}
+
+// Three rounds of Refinement tell it, whatever the second one says; where the third is too small to
+// be seen it is what the second one did, twice, and no more than can be hidden.
+TYPED_TEST(ContractionRule, OfTwoIncrementsIsThatOfTwoRounds) {
+  const auto learnt = [](double one, double two) {
+    typename TestFixture::RuleOfTwo rule;
+    rule.begin(0);
+    EXPECT_EQ(rule.rounds_asked(), 2);
+    rule.learn_of_rounds(1, one, 0x1p-14);
+    EXPECT_EQ(rule.rounds_asked(), 2);
+    rule.learn_of_rounds(2, two, 0x1p-14);
+    EXPECT_EQ(rule.rounds_asked(), 0);
+    return double(rule.contraction);
+  };
+  EXPECT_EQ(learnt(0.5, 0x1p-9), 0x1p-9);
+  EXPECT_EQ(learnt(0x1p-12, 0x1p-9), 0x1p-9);
+  EXPECT_EQ(learnt(0x1p-12, 0x1p-15), 0x1p-24);
+  EXPECT_EQ(learnt(0.5, 0x1p-15), 0x1p-14);
+  EXPECT_EQ(this->with_contraction(0.5).rounds_asked(), 0);
+}
+
+// A step that checks is asked for them: x = A x with the contraction 2^-6 of two increments, of
+// which one is a half.
+TYPED_TEST(ContractionRule, OfTwoIncrementsLearnsFromThreeRounds) {
+  using Real = typename TypeParam::Scalar;
+  auto rule = this->template with_contraction<typename TestFixture::RuleOfTwo>(1e-3);
+  rule.unchecked = 32;
+  EXPECT_EQ(this->show(rule, 4, 1), TypeParam::Answer::done);
+  typename TypeParam::template Refined<2, 2> refinement;
+  Real point[2] = {1 + TypeParam::unit, 1 + TypeParam::unit};
+  int evaluations = 0;
+  for (bool more = true; more; ++evaluations) {
+    const Real x = point[0] - 1;
+    const Real y = point[1] - 1;
+    const Real lack[2] = {y / 2 - x, x / 32 - y};
+    const Real slope[2] = {0, 0};
+    more = refinement(rule, point, lack, slope);
+  }
+  EXPECT_GE(evaluations, 3);
+  // In float that cannot be seen.
+  const bool is_float = double(TypeParam::unit) > 1e-10;
+  EXPECT_NEAR(double(rule.contraction), is_float ? 1.0 / 16 : 1.0 / 64, 1e-3);
 }
 
 // A small increment between two that are not tells nothing of how slow it is.
 TYPED_TEST(ContractionRule, OfTwoIncrementsGivesUpWhereTheMatrixIsCheaper) {
   using Rule = typename TestFixture::RuleOfTwo;
-  EXPECT_FALSE(this->template with_contraction<Rule>(0.105 * 0.105, 4).is_slow());
-  EXPECT_TRUE(this->template with_contraction<Rule>(0.106 * 0.106, 4).is_slow());
-  EXPECT_FALSE(this->template with_contraction<Rule>(0.49, 26).is_slow());
+  const double most = std::pow(static_cast<double>(TypeParam::unit), 1.0 / 8);
+  EXPECT_FALSE(this->template with_contraction<Rule>(0.99 * most, 4).is_slow());
+  EXPECT_TRUE(this->template with_contraction<Rule>(1.01 * most, 4).is_slow());
   EXPECT_TRUE(this->template with_contraction<Rule>(0.51, 26).is_slow());
-  for (const double third : {0.4, 0.6}) {
+  for (const double third : {0.2, 0.6}) {
     Rule rule;
     rule.begin(26);
     EXPECT_EQ(this->show(rule, 1e6, 1), TypeParam::Answer::go_on);
