@@ -13,6 +13,7 @@ class StageRules : public ::testing::Test {
   // One unknown 1 that moves by so many units of rounding.
   static typename Blocks::Moved moved(double units) {
     typename Blocks::Moved distance;
+    distance.units = 64;  // in float, too
     distance.add(Number(units) * Blocks::unit, 1);
     return distance;
   }
