@@ -94,12 +94,12 @@ TEST(Measure, TakesWhatRestsButForRoundingToBeAtRest) {
 // back comes to another solution: that says nothing of the step.
 TEST(Measure, LooksNearerWhereStepsComeToOtherSolutions) {
   const Scratch scratch;
-  const std::string beads =
-      scratch.write("beads.ham",
-                    "size N = 6\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 7.7\nmomentum p[1..N]\n"
-                    "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, 50*(q[i+1] - q[i] - 1)^2 + "
-                    "20*(q[i+1] - q[i] - 1)^3)\n"
-                    "scene s {\n  q[i] = 1.1*i\n  p[3] = 1e-3\n  h = 0.1\n  steps = 20\n}\n");
+  const std::string beads = scratch.write(
+      "beads.ham",
+      "size N = 10\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 12.1\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, 50*(q[i+1] - q[i] - 1)^2 + "
+      "40*(q[i+1] - q[i] - 1)^3)\n"
+      "scene s {\n  q[i] = 1.1*i\n  p[3] = 1e-3\n  h = 0.1\n  steps = 20\n}\n");
   expect_symplectic({{beads, {}}});
   EXPECT_EQ(measured(beads, {}).reversal, "tested");
 }

@@ -108,6 +108,12 @@ TYPED_TEST(FixedPointRule, WhatIsNearItsEndIsThere) {
   EXPECT_EQ(this->template stop<2>(constant(200), Verdict::done, 1), 5);
 }
 
+TYPED_TEST(FixedPointRule, InLoopsItIsNearNoFartherOffThan64Units) {
+  typename TypeParam::Moved distance;
+  distance.narrow();
+  EXPECT_EQ(double(distance.units), static_cast<double>(TypeParam::unit) > 1e-10 ? 4 : 64);
+}
+
 // What would follow, by the last two: 400 units are an end if those before were 41 times as much,
 // for 400 / 41 are less than 8 units of both, and a bit more is none.  In float no more than 4
 // units are.
