@@ -77,11 +77,11 @@ class TangentMeasurement {
     const std::string where = fmt::format(
         "at {} states and parameters around the scene, h = {:g}{}", kStates, start_.h.hi,
         failed_ == 0 ? "" : fmt::format(" ({} of them without a step)", failed_));
-    const std::string elsewhere =
+    const std::string nearer =
         nearer_ == 0 ? ""
                      : fmt::format(
-                           "; {} of them moved less, for farther off the equations have "
-                           "other solutions, or nearly so",
+                           "; {} of them moved less, for farther off steps differ by more "
+                           "than M tells, or do not lead back",
                            nearer_);
     if (failed_ == kStates)
       return {{"tangent map symplectic", Verdict::not_decided, "no step could be taken " + where}};
@@ -89,7 +89,7 @@ class TangentMeasurement {
     auto within = [&](const std::string& property, double value) {
       return Finding{property, value <= round_off ? Verdict::tested : Verdict::refuted,
                      fmt::format("at most {:.2e} {}; round-off is below {:.0e}{}", value, where,
-                                 round_off, elsewhere)};
+                                 round_off, nearer)};
     };
     Proof proof{within("tangent map symplectic", defect_)};
     if (compared_ == 0) {
@@ -98,8 +98,8 @@ class TangentMeasurement {
     } else {
       proof.push_back(
           {"tangent map of the step", wrong_ ? Verdict::refuted : Verdict::tested,
-           fmt::format("differs from difference quotients of the step by at most {:.1e}{}",
-                       difference_, wrong_ ? ", which is more than their error" : "")});
+           fmt::format("differs from difference quotients of the step by at most {:.1e}{}{}",
+                       difference_, wrong_ ? ", which is more than their error" : "", nearer)});
     }
     if (!symmetric) return proof;
     proof.push_back(reversed_ > 0 ? within("reversal", reversal_)
@@ -152,7 +152,7 @@ class TangentMeasurement {
   // What one state shows.
   struct Seen {
     bool failed = false, reversed = false, wrong = false;
-    bool may_be_another = false;  // has the step, or the one back, come to another solution?
+    bool may_be_another = false;  // may the step, or the one back, have come to another solution?
     double defect = 0, reversal = 0, difference = 0;
     int compared = 0;
   };

@@ -29,7 +29,7 @@ struct Row {
   // Statements that fill z[0..2n) from uniform(), uniform in (-1, 1), and the number s of the
   // start.
   std::string start = "for (double& value : z) value = uniform();";
-  bool is_exempt = false;  // not symplectic: listed, not judged
+  bool is_exempt = false;         // not symplectic: listed, not judged
   std::string scalar = "double";  // or "float"
 };
 

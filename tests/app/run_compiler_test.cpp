@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "runtime/process.hpp"
@@ -100,17 +101,10 @@ TEST(Studies, AskTheCompilerForLittleWhereStepsAreFew) {
             "-O0\n");
 }
 
-// Of a long text, which takes the optimiser long, more steps have to repay it.  Nothing is
-// compiled.
-TEST(Run, AsksTheCompilerForLittleWhereTheTextIsLong) {
+// The level that a run asks a compiler for, which says it and compiles nothing.
+std::string level_asked_for(const std::string& text, std::vector<std::string> options) {
   const Scratch scratch;
-  const std::string model =
-      scratch.write("long.ham",
-                    "system long\nsize N = 14\ncoordinate q[1..N]\nmomentum p[1..N]\n"
-                    "let A = sum(i = 1..N, p[i])\nlet B = sum(i = 1..N, q[i]^2)\n"
-                    "H = sum(i = 1..N, p[i]^2/2 + q[i]^2/2) + A*B/N + sum(i = 1..N, q[i]*p[i])^2/50"
-                    " + sum(i = 1..N, i*q[i])*sum(i = 2..N-1, p[i]*q[i+1])/1000\n"
-                    "scene s { q[i] = sin(i)/3; p[i] = cos(2*i)/4; h = 0.02; steps = 3 }\n");
+  options.insert(options.begin(), {"run", scratch.write("model.ham", text)});
   const std::string words = scratch.path("words");
   const std::string compiler = scratch.write(
       "compiler",
@@ -118,16 +112,34 @@ TEST(Run, AsksTheCompilerForLittleWhereTheTextIsLong) {
       "$word >>" +
           words + ";; esac; done\nexit 1\n");
   std::filesystem::permissions(compiler, std::filesystem::perms::owner_all);
-  const auto asked_for = [&](const std::string& steps) {
-    std::filesystem::remove(words);
-    const Result result = hamgen({"run", model, "--steps", steps},
-                                 {"HAMGEN_CACHE=" + scratch.path("cache"), "CXX=" + compiler});
-    EXPECT_EQ(result.status, 4) << result.err;
-    return read(words);
-  };
-  EXPECT_EQ(asked_for("3"), "-O0\n");
-  EXPECT_EQ(asked_for("300"), "-O0\n");
-  EXPECT_EQ(asked_for("20000"), "-O1\n");
+  const Result result =
+      hamgen(options, {"HAMGEN_CACHE=" + scratch.path("cache"), "CXX=" + compiler});
+  EXPECT_EQ(result.status, 4) << result.err;
+  return read(words);
+}
+
+// Of a long text, which takes the optimiser long, more steps have to repay it.
+TEST(Run, AsksTheCompilerForLittleWhereTheTextIsLong) {
+  const std::string model =
+      "system long\nsize N = 14\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+      "let A = sum(i = 1..N, p[i])\nlet B = sum(i = 1..N, q[i]^2)\n"
+      "H = sum(i = 1..N, p[i]^2/2 + q[i]^2/2) + A*B/N + sum(i = 1..N, q[i]*p[i])^2/50"
+      " + sum(i = 1..N, i*q[i])*sum(i = 2..N-1, p[i]*q[i+1])/1000\n"
+      "scene s { q[i] = sin(i)/3; p[i] = cos(2*i)/4; h = 0.02; steps = 3 }\n";
+  EXPECT_EQ(level_asked_for(model, {"--steps", "3"}), "-O0\n");
+  EXPECT_EQ(level_asked_for(model, {"--steps", "300"}), "-O0\n");
+  EXPECT_EQ(level_asked_for(model, {"--steps", "20000"}), "-O1\n");
+}
+
+// Loops are compiled sooner than a text that is written out and as long.
+TEST(Run, AsksTheCompilerForMoreWhereTheTextIsLoops) {
+  const std::string model =
+      "system ring\nsize N = 100\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2 + (q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^4/4)\n"
+      "scene s { q[i] = sin(i)/3; h = 0.02; steps = 3 }\n";
+  for (const auto& [steps, level] :
+       std::map<std::string, std::string>{{"30", "-O0\n"}, {"5000", "-O1\n"}, {"200000", "-O3\n"}})
+    EXPECT_EQ(level_asked_for(model, {"--order", "4", "--steps", steps}), level) << steps;
 }
 
 // The same steps, in an object of their own.

@@ -215,6 +215,32 @@ TEST(FixedPoint, BeginsOnceMoreAtTheStateBeforeNewtonTakesOver) {
   EXPECT_TRUE(comes_to_newton("spring_pendulum", {.scheme = "gauss-6"}, 0.48));
 }
 
+// Where coordinates and momenta wait for each other it begins with the prediction that the fixed
+// point began with: by the steps that Newton alone takes, to the last bit.
+TEST(FixedPoint, LeavesItsPredictionToNewton) {
+  const SourceText source = make_source(
+      "rotors.ham",
+      "system rotors\nsize N = 26\ncoordinate q[1..N] periodic\nmomentum p[1..N] periodic\n"
+      "H = sum(i = 1..N, p[i]^2*(2 + cos(q[i]))/6 - cos(q[i+1] - q[i]))\n");
+  std::vector<double> start(52);
+  for (std::size_t i = 0; i < 26; ++i) {
+    start[i] = std::sin(static_cast<double>(i)) / 2;
+    start[26 + i] = std::cos(static_cast<double>(i * i)) / 2;
+  }
+  const double h = 1;  // of which three increments show that they do not contract
+  Interpreter<double> both(make_program(source, {}), {}, h, start);
+  Interpreter<double> newton(make_program(source, {.solver = "newton"}), {}, h, start);
+  long more = 0;
+  for (int step = 0; step < 100; ++step) {
+    const auto report = both.step();
+    const auto alone = newton.step();
+    ASSERT_TRUE(report.converged && alone.converged) << step;
+    more += report.iterations - alone.iterations;
+    ASSERT_EQ(both.state(), newton.state()) << step;
+  }
+  EXPECT_GT(more, 3);  // the fixed point was tried
+}
+
 // Variables that are called like the objects of the routines: z, k, par, carry.
 TEST(Names, OfVariablesAreNotThoseOfObjects) {
   const auto last = [](const std::vector<std::string>& q) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cstdlib>
 
 #include "tests/planner/emitted_text.hpp"
 
@@ -95,6 +96,30 @@ TEST(LargePlan, NewtonStandsBehindTheFixedPointUnlessItIsAskedFor) {
       << coupled.plan;
   EXPECT_TRUE(contains(coupled.header, "ContractionRule<2> rule;"));
   EXPECT_TRUE(contains(coupled.header, "WaitingNewtonRule<2, 60> newton_rule;"));
+}
+
+// What its matrix costs a ring of rotators, in evaluations of its equations.
+int work_of(const std::string& potential, const Request& request) {
+  const std::string header = outcome(
+                                 "size N = 40\ncoordinate q[1..N] periodic\nmomentum p[1..N] "
+                                 "periodic\nH = sum(i = 1..N, p[i]^2/2 + p[i]*p[i+1]/9 + " +
+                                     potential + ")\n",
+                                 request)
+                                 .header;
+  const std::string call = "start.rule.begin(";
+  const std::size_t begin = header.find(call) + call.size();
+  return std::atoi(header.substr(begin, 4).c_str());
+}
+
+// Evaluations are dear where there are functions; where a library adds and multiplies no row waits
+// for another.
+TEST(LargePlan, AMatrixCostsFewerOfDearEvaluations) {
+  const std::string polynomial = "(q[i+1] - q[i])^4/4";
+  const int plain = work_of(polynomial, {});
+  const int functions = work_of("cos(q[i+1] - q[i]) - cos(2*q[i])*exp(sin(q[i]))", {});
+  EXPECT_GT(functions, 1);
+  EXPECT_GT(plain, 2 * functions);
+  EXPECT_GT(plain, work_of(polynomial, {.scalar = "quad"}));
 }
 
 // K is loops over neighbours under the names of the model, and the gradient of H stays beside its.
