@@ -18,41 +18,50 @@ constexpr double kMostTerms = 10'000;
 // To look a subexpression up and to remember what it became.
 constexpr double steps_of_conversion = 20;
 
-using TermCounts = ByIdentity<double>;
-
-double expanded_terms(const GiNaC::ex& e, TermCounts& known);
-
-// At most so many terms has the expanded power: of t terms, the n-th power has as many as there are
-// monomials of degree n in t variables, (t + n - 1 over n).
-double expanded_terms(const GiNaC::ex& base, const GiNaC::ex& exponent, TermCounts& known) {
-  const double terms = expanded_terms(base, known);
-  if (!exponent.info(GiNaC::info_flags::integer)) return terms * expanded_terms(exponent, known);
-  const double n = std::abs(GiNaC::ex_to<GiNaC::numeric>(exponent).to_double());
-  double result = terms;
-  for (double i = 2; terms > 1 && i <= n && result <= kMostTerms; ++i)
-    result *= (terms + i - 1) / i;
-  return result;
-}
-
-double expanded_terms(const GiNaC::ex& e, TermCounts& known) {
-  if (e.nops() == 0 || GiNaC::is_a<GiNaC::function>(e)) return 1;
-  spend(Resource::work, 1);
-  if (const double* const count = known.find(e)) return *count;
-  double terms = 1;
-  if (GiNaC::is_a<GiNaC::add>(e)) {
-    const auto& sum = GiNaC::ex_to<GiNaC::add>(e);
-    terms = GinacSum::number(sum).is_zero() ? 0 : 1;
-    for (const GiNaC::expair& term : GinacSum::pairs(sum))
-      terms += expanded_terms(term.rest, known);
-  } else if (GiNaC::is_a<GiNaC::mul>(e)) {
-    for (const GiNaC::expair& factor : GinacProduct::pairs(GiNaC::ex_to<GiNaC::mul>(e)))
-      terms *= expanded_terms(factor.rest, factor.coeff, known);
-  } else if (GiNaC::is_a<GiNaC::power>(e)) {
-    terms = expanded_terms(e.op(0), e.op(1), known);
+// How many terms an expression has at most when it is expanded, and those on the way there.
+class ExpandedTerms {
+ public:
+  double operator()(const GiNaC::ex& e) {
+    if (e.nops() == 0 || GiNaC::is_a<GiNaC::function>(e)) return 1;
+    spend(Resource::work, 1);
+    if (const double* const count = known_.find(e)) return *count;
+    double terms = 1;
+    if (GiNaC::is_a<GiNaC::add>(e)) {
+      const auto& sum = GiNaC::ex_to<GiNaC::add>(e);
+      terms = GinacSum::number(sum).is_zero() ? 0 : 1;
+      for (const GiNaC::expair& term : GinacSum::pairs(sum)) terms += (*this)(term.rest);
+    } else if (GiNaC::is_a<GiNaC::mul>(e)) {
+      for (const GiNaC::expair& factor : GinacProduct::pairs(GiNaC::ex_to<GiNaC::mul>(e)))
+        terms *= of_power(factor.rest, factor.coeff);
+    } else if (GiNaC::is_a<GiNaC::power>(e)) {
+      terms = of_power(e.op(0), e.op(1));
+    }
+    known_.emplace(e, terms);
+    return terms;
   }
-  known.emplace(e, terms);
-  return terms;
-}
+
+  // Of what stays in roots and denominators, which are one factor each.
+  [[nodiscard]] double within() const { return within_; }
+
+ private:
+  // Of t terms, the n-th power has as many as there are monomials of degree n in t variables,
+  // (t + n - 1 over n).
+  double of_power(const GiNaC::ex& base, const GiNaC::ex& exponent) {
+    const double terms = (*this)(base);
+    if (!exponent.info(GiNaC::info_flags::posint)) {
+      within_ += terms + (*this)(exponent);
+      return 1;
+    }
+    const double n = GiNaC::ex_to<GiNaC::numeric>(exponent).to_double();
+    double result = terms;
+    for (double i = 2; terms > 1 && i <= n && result <= kMostTerms; ++i)
+      result *= (terms + i - 1) / i;
+    return result;
+  }
+
+  ByIdentity<double> known_;
+  double within_ = 0;
+};
 
 }  // namespace
 
@@ -197,12 +206,17 @@ GiNaC::ex to_ginac(const Expression& e, SymbolTable& table) {
   return convert(convert, e);
 }
 
+double expanded_terms(const GiNaC::ex& e) {
+  ExpandedTerms terms;
+  const double outside = terms(e);
+  return outside + terms.within();
+}
+
 bool vanishes_when_expanded(const GiNaC::ex& e) {
   if (e.is_zero()) return true;
-  TermCounts known;
-  const double terms = expanded_terms(e, known);
-  if (terms > kMostTerms) return false;
-  spend(Resource::work, terms);
+  const double count = expanded_terms(e);
+  if (count > kMostTerms) return false;
+  spend(Resource::work, count);
   return e.expand().is_zero();
 }
 
@@ -210,7 +224,7 @@ bool vanishes(const Expression& e) {
   if (e.is_zero()) return true;
   if (e.is_number()) return false;
   SymbolTable table;
-  return to_ginac(e, table).expand().is_zero();
+  return vanishes_when_expanded(to_ginac(e, table));
 }
 
 }  // namespace hamgen

@@ -43,10 +43,12 @@ class FromGinac {
 
 [[nodiscard]] Expression from_ginac(const GiNaC::ex& e, const SymbolTable& table);
 [[nodiscard]] GiNaC::ex to_ginac(const Expression& e, SymbolTable& table);
-// Is it identically 0, as far as expanding shows?
+// At most so many terms, those of roots and denominators among them, are written when it is
+// expanded.
+[[nodiscard]] double expanded_terms(const GiNaC::ex& e);
+// Is it identically 0, as far as expanding shows?  False of all that is not written as 0 and would
+// expand to more than a moderate number of terms.
 [[nodiscard]] bool vanishes(const Expression& e);
-// The same, of an expression that expands to a moderate number of terms; false for all others that
-// are not written as 0.
 [[nodiscard]] bool vanishes_when_expanded(const GiNaC::ex& e);
 // By its binary digits: a proof at points converts as many numbers as it meets.
 [[nodiscard]] cln::cl_I to_cln(const Integer& value);

@@ -8,12 +8,15 @@
 
 #include "generator/algebra/from_ginac.hpp"
 #include "generator/algebra/functions.hpp"
+#include "generator/verify/numerator.hpp"
 
 namespace hamgen {
 
 namespace {
 
-constexpr std::size_t kLargestRadicand = 60;  // terms of a sum that is looked at for a square
+// Terms of a sum that is looked at for a square, as it stands and when it is expanded.
+constexpr std::size_t kLargestRadicand = 60;
+constexpr std::size_t kLargestExpanded = 1000;
 
 bool has_symbols(const Expression& e) {
   std::set<std::string> names = symbols(e);
@@ -64,15 +67,26 @@ bool is_positive(const Expression& e) {
          std::ranges::any_of(e.operands(), is_positive);
 }
 
+// Over one denominator, functions taken as symbols; 0 where that is too long.
+GiNaC::ex over_one_denominator(const GiNaC::ex& sum, GiNaC::exmap& functions) {
+  const GiNaC::ex rational = sum.to_polynomial(functions);
+  if (expanded_terms(rational) > kLargestExpanded) return 0;
+  try {
+    return numerator(rational, kLargestExpanded);
+  } catch (const std::exception&) {
+    return 0;
+  }
+}
+
 // Factors of a sum that divide it an even number of times, functions in it taken as symbols.
 std::vector<std::pair<Expression, int>> even_factors(const Expression& sum) {
   std::vector<std::pair<Expression, int>> result;
   if (sum.operands().size() > kLargestRadicand) return result;
   SymbolTable table;
   GiNaC::exmap functions;
-  const GiNaC::ex numerator = to_ginac(sum, table).to_polynomial(functions).numer().expand();
-  if (is_plainly_square_free(numerator)) return result;
-  const GiNaC::ex factored = GiNaC::sqrfree(numerator);
+  const GiNaC::ex polynomial = over_one_denominator(to_ginac(sum, table), functions);
+  if (polynomial.is_zero() || is_plainly_square_free(polynomial)) return result;
+  const GiNaC::ex factored = GiNaC::sqrfree(polynomial);
   const auto look = [&](const GiNaC::ex& factor) {
     if (!GiNaC::is_a<GiNaC::power>(factor)) return;
     const GiNaC::ex& exponent = factor.op(1);

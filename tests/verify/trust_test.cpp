@@ -321,6 +321,8 @@ TEST(Corners, AreFoundInRootsOfSquaresAndNotInOtherRoots) {
   EXPECT_EQ(count("sqrt(q^2 + p^2)"), 0U);
   EXPECT_EQ(count("(q^2 - 2*q + 1)^2 + p^2"), 0U);
   EXPECT_EQ(count("sqrt(1 + q^2) + p^2"), 0U);
+  // What is too long to be looked at has none that are known.
+  EXPECT_EQ(count("sqrt((q^3 + p + 1)^60 + q) + p^2"), 0U);
 }
 
 // abs(x) taken for x in the instructions agrees with H on half of the line.
@@ -330,6 +332,22 @@ TEST(FalseCode, IsRefutedOnTheOtherSideOfACorner) {
   const Expression size = Expression::apply("abs", {q});
   wrong.claims.push_back({"the energy", q * q * q, size * q * q});
   EXPECT_EQ(decide(wrong).verdict, Verdict::refuted);
+}
+
+// The bond angle of three atoms with a root of a product: expanded, the entries of its Hessian have
+// millions of terms.  They are looked at at points.
+TEST(ProofOfACodesAlgebra, IsGivenUpWhereItWouldNotEnd) {
+  const auto source = [](const std::string& root) {
+    return model(R"(coordinate x[1..3], y[1..3], z[1..3]
+momentum px[1..3], py[1..3], pz[1..3]
+let a = (x[2]-x[1])*(x[3]-x[2]) + (y[2]-y[1])*(y[3]-y[2]) + (z[2]-z[1])*(z[3]-z[2])
+let b = (x[2]-x[1])^2 + (y[2]-y[1])^2 + (z[2]-z[1])^2
+let c = (x[3]-x[2])^2 + (y[3]-y[2])^2 + (z[3]-z[2])^2
+H = sum(i=1..3, px[i]^2 + py[i]^2 + pz[i]^2)/2 + 50*(a/)" +
+                 root + " - 0.3)^2\n");
+  };
+  EXPECT_EQ(finding(source("sqrt(b*c)"), {}, kProgram).verdict, Verdict::tested);
+  EXPECT_EQ(finding(source("(sqrt(b)*sqrt(c))"), {}, kProgram).verdict, Verdict::proved);
 }
 
 void expect_tangent(const std::string& model) {
