@@ -143,11 +143,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_832cd4bd::float64 {
+namespace hamgen_fef46be6::float64 {
 using Real = double;
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_STEP_REPORT
-#define HAMGEN_832CD4BD_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_FEF46BE6_FLOAT64_STEP_REPORT
+#define HAMGEN_FEF46BE6_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -157,15 +157,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_VOCABULARY
-#define HAMGEN_832CD4BD_FLOAT64_VOCABULARY
+#ifndef HAMGEN_FEF46BE6_FLOAT64_VOCABULARY
+#define HAMGEN_FEF46BE6_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_TWO_SUM
-#define HAMGEN_832CD4BD_FLOAT64_TWO_SUM
+#ifndef HAMGEN_FEF46BE6_FLOAT64_TWO_SUM
+#define HAMGEN_FEF46BE6_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -175,8 +175,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_SUM_WITH_REST
-#define HAMGEN_832CD4BD_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_FEF46BE6_FLOAT64_SUM_WITH_REST
+#define HAMGEN_FEF46BE6_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -188,8 +188,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_SUMS
-#define HAMGEN_832CD4BD_FLOAT64_SUMS
+#ifndef HAMGEN_FEF46BE6_FLOAT64_SUMS
+#define HAMGEN_FEF46BE6_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -240,8 +240,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_BAND_MATRIX
-#define HAMGEN_832CD4BD_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_FEF46BE6_FLOAT64_BAND_MATRIX
+#define HAMGEN_FEF46BE6_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -306,8 +306,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_832CD4BD_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_FEF46BE6_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_FEF46BE6_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -372,14 +372,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_VERDICT
-#define HAMGEN_832CD4BD_FLOAT64_VERDICT
+#ifndef HAMGEN_FEF46BE6_FLOAT64_VERDICT
+#define HAMGEN_FEF46BE6_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_NEWTON_RULE
-#define HAMGEN_832CD4BD_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_FEF46BE6_FLOAT64_NEWTON_RULE
+#define HAMGEN_FEF46BE6_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -549,8 +549,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_832CD4BD_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_FEF46BE6_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_FEF46BE6_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -820,8 +820,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_832CD4BD_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_FEF46BE6_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_FEF46BE6_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -844,8 +844,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_832CD4BD_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_FEF46BE6_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_FEF46BE6_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
@@ -970,8 +970,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_832CD4BD_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_FEF46BE6_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_FEF46BE6_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -1102,8 +1102,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_REFINEMENT
-#define HAMGEN_832CD4BD_FLOAT64_REFINEMENT
+#ifndef HAMGEN_FEF46BE6_FLOAT64_REFINEMENT
+#define HAMGEN_FEF46BE6_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1118,7 +1118,7 @@ struct ContractionRule {
 // cut off is a bias: a 2^-13th of a unit.  The contraction is that of two rounds, of this step or
 // of the one before, four times over; no increment of more than a 32nd of a unit is left.
 //
-template <int Size, int Components>
+template <int Size, int Components, bool RoundsBeside = false>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
   static constexpr Real find_amplifier() {
@@ -1129,11 +1129,13 @@ struct Refinement {
   static constexpr Real amplifier = find_amplifier();
   static constexpr int size = Size;
   static constexpr int components = Components;
+  static constexpr bool rounds_beside = RoundsBeside;
   Real change[Components] = {};  // of the gradient, from the rounded point to the solution
   Real slope[Components] = {};   // the gradient at the rounded point
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
+  Real beside = 0;               // a length that an unknown is rounded with, where it RoundsBeside
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
@@ -1194,7 +1196,7 @@ struct Refinement {
     // See Note [what a round leaves].
     const Real counts = times_counted();
     const Real open = sum_of<Size>([&](int j) {
-      const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
+      const Real unit = epsilon * length(at[j]) + magnitude(moved[j]) / 128;
       return magnitude(error[j]) * counts > unit ? magnitude(error[j]) : Real(0);
     });
     learn_of(lengths_of(error));
@@ -1228,11 +1230,16 @@ struct Refinement {
   void take_slopes(const Real* gradient) {
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
   }
+  // Of which an unknown's rounding is a part.
+  Real length(Real x) const {
+    if constexpr (RoundsBeside) return magnitude(x) + beside;
+    return magnitude(x);
+  }
   // Of unknowns that lack more than so many units of their own rounding.
-  static Real left(const Real* point, const Real* lack, Real units) {
+  Real left(const Real* point, const Real* lack, Real units) const {
     return sum_of<Size>([&](int j) {
-      const Real size = magnitude(lack[j]);
-      return size > units * epsilon * magnitude(point[j]) ? size : Real(0);
+      const Real lacks = magnitude(lack[j]);
+      return lacks > units * epsilon * length(point[j]) ? lacks : Real(0);
     });
   }
   static Real lacking(const Real* lack) {
@@ -1265,15 +1272,16 @@ struct Refinement {
     }
     return sum_of<Size>([&](int j) {
       const Real error = magnitude(missing[j] + (lack[j] - missing[j]) / amplifier);
-      const bool moves = error * 32 > epsilon * magnitude(at[j]) && error * 1024 > begun;
+      const Real unit = epsilon * length(at[j]);
+      const bool moves = error * 32 > unit && error * 1024 > begun;
       return moves && error > noise ? error : Real(0);
     });
   }
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_HISTORY
-#define HAMGEN_832CD4BD_FLOAT64_HISTORY
+#ifndef HAMGEN_FEF46BE6_FLOAT64_HISTORY
+#define HAMGEN_FEF46BE6_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1374,8 +1382,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_832CD4BD_FLOAT64_FORGET
-#define HAMGEN_832CD4BD_FLOAT64_FORGET
+#ifndef HAMGEN_FEF46BE6_FLOAT64_FORGET
+#define HAMGEN_FEF46BE6_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1385,17 +1393,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_832cd4bd::float64
+}  // namespace hamgen_fef46be6::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x4d355e5d
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x461a64b2
 namespace fput::implicit_midpoint {
-inline namespace emitted_4d355e5d {
+inline namespace emitted_461a64b2 {
 
-namespace numerics = ::hamgen_832cd4bd::float64;
+namespace numerics = ::hamgen_fef46be6::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1740,9 +1748,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_4d355e5d
+}  // namespace emitted_461a64b2
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x4d355e5d
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x461a64b2
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -41,6 +41,10 @@ long rows_eliminated(const SolvePlan& plan) {
   return rows;
 }
 
+bool is_newton(const Request& request) {
+  return !request.solver.empty() && request.solver->kind == SolverWish::Kind::newton;
+}
+
 long work(const Mechanics& mechanics) {
   const Scheme midpoint = for_system(*find_scheme("implicit-midpoint"), mechanics);
   const SolvePlan plan = plan_solve(discretise(mechanics, midpoint), {});
@@ -61,12 +65,17 @@ bool asks_for_expressions(const Request& request, const Scheme& scheme) {
          !request.format->format->takes_loops;
 }
 
+std::string wish_for_all_second_derivatives(const Request& request) {
+  if (request.tangent) return "the tangent map";
+  if (request.order > 0) return "a step of higher order";
+  if (request.watch_modified > 0) return "the modified energy";
+  if (is_newton(request)) return "Newton's method";
+  return request.format->format->takes_loops ? "" : "this format";
+}
+
 Mechanics derive_for(const Request& request, const Model& model, bool keep_sums, int most) {
   Mechanics mechanics = derive(model, keep_sums, most);
-  const bool newton = !request.solver.empty() && request.solver->kind == SolverWish::Kind::newton;
-  const bool needs_more = newton || request.order > 0 || request.tangent ||
-                          request.watch_modified > 0 || !request.format->format->takes_loops;
-  if (mechanics.sums.empty() || !needs_more) return mechanics;
+  if (mechanics.sums.empty() || wish_for_all_second_derivatives(request).empty()) return mechanics;
   return derive(model, false, most);
 }
 

@@ -1,6 +1,8 @@
 // Whether the sums of H are written out or stay loops.
 #pragma once
 
+#include <string>
+
 #include "generator/language/model.hpp"
 #include "generator/mechanics/derive.hpp"
 #include "generator/mechanics/mechanics.hpp"
@@ -19,6 +21,10 @@ namespace hamgen {
 // rule stands for all methods, for these share the functions of a system's header.  Of what a scene
 // does not need loops leave out whole arrays only: where more is left out it is written out.
 [[nodiscard]] bool are_loops_quicker(const Mechanics& written_out, const Mechanics& in_loops);
+
+// What in the request needs the derivatives of functions of sums, and has these written out: "the
+// tangent map", or "".
+[[nodiscard]] std::string wish_for_all_second_derivatives(const Request& request);
 
 // The system, in loops where that is wanted.  A function of sums is written out where more is asked
 // for than its gradient.

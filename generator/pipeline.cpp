@@ -9,6 +9,7 @@
 #include "generator/algebra/scalar.hpp"
 #include "generator/base/budget.hpp"
 #include "generator/base/diagnostic.hpp"
+#include "generator/choose_sums.hpp"
 #include "generator/choose_system.hpp"
 #include "generator/emit_files.hpp"
 #include "generator/emitted_text.hpp"
@@ -71,7 +72,12 @@ Stages run_stages(const SourceText& source, const Request& request) {
   try {
     return stages_of(model, request);
   } catch (const OverBudget& error) {
-    throw over_budget(error, model.hamiltonian->span, source);
+    const std::string wish = wish_for_all_second_derivatives(request);
+    throw over_budget(error, model.hamiltonian->span, source,
+                      wish.empty() ? ""
+                                   : "; " + wish +
+                                         " needs them all: without it a function of "
+                                         "sums keeps these as loops");
   }
 }
 

@@ -38,9 +38,7 @@ int order_value(std::string_view spec, const std::string& text) {
 
 void require_scheme(const std::string& name) {
   if (find_scheme(name) != nullptr) return;
-  std::vector<std::string> names;
-  for (const Scheme& scheme : all_schemes()) names.emplace_back(scheme.name);
-  const std::string near = nearest(name, names);
+  const std::string near = scheme_meant_by(name);
   throw UsageError(fmt::format("--schemes: unknown scheme '{}'{}\nhelp: see hamgen list schemes",
                                name, near.empty() ? "" : ", did you mean '" + near + "'?"));
 }

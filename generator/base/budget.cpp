@@ -66,11 +66,12 @@ void spend(Resource resource, double amount) {
 
 const Amounts& spent() { return account().spent; }
 
-ModelError over_budget(const OverBudget& error, const Span& span, const SourceText& source) {
+ModelError over_budget(const OverBudget& error, const Span& span, const SourceText& source,
+                       const std::string& besides) {
   return {{{.severity = Severity::error,
             .span = span,
             .message = error.what(),
-            .help = way_out(error.resource())}},
+            .help = way_out(error.resource()) + besides}},
           source};
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "generator/base/diagnostic.hpp"
@@ -50,8 +51,8 @@ void spend(Resource resource, double amount);
 // What was spent by the budget of this thread, or by the last one it had.
 [[nodiscard]] const Amounts& spent();
 
-// What is said of it, and a way out, at the place of the formula that grew.
+// What is said of it, and a way out, at the place of the formula that grew; and another way.
 [[nodiscard]] ModelError over_budget(const OverBudget& error, const Span& span,
-                                     const SourceText& source);
+                                     const SourceText& source, const std::string& besides = "");
 
 }  // namespace hamgen

@@ -21,7 +21,7 @@ class MachineAddresses {
 
   struct Compiled {
     Address target;
-    CompiledExpression<Real> start, correction;
+    CompiledExpression<Real> start, beside, way, correction;
     int memory = 0;
     bool by_torn = false;
   };
@@ -200,8 +200,9 @@ class MachineAddresses {
   std::vector<Compiled> compiled(const std::vector<Unknown>& unknowns) {
     std::vector<Compiled> result;
     for (const Unknown& u : unknowns) {
-      result.push_back(
-          {address(u.symbol), compiled(u.start), compiled(u.correction), u.memory, u.by_torn});
+      result.push_back({address(u.symbol), compiled(u.start), compiled(u.beside),
+                        compiled(Expression::symbol(u.symbol) - u.beside), compiled(u.correction),
+                        u.memory, u.by_torn});
     }
     return result;
   }

@@ -73,48 +73,55 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
     const bool are_whole = !whole_unknowns(this->routine_, iterate).empty();
-    return [this, unknowns, ranges, residual, leaves_last = iterate.leaves_last, start, flag,
-            are_whole, body, rule = iterate.rule, name = iterate.name, work = iterate.work] {
-      Object<Real>& memory = object(start);
-      const auto each = [&](const std::function<void(const Array2&)>& use) {
-        for_all(ranges, 0, [&] {
-          for (const Array2& u : unknowns) use(u);
-        });
-      };
-      if (rule == Rule::newton || rule == Rule::linear) {
-        const bool known = memory.flags.at("known") != 0;
-        AnyNewtonRule<Real>& newton = *memory.rules.at(name);
-        return run_newton(
-            newton, known, body,
-            [&](int iteration) {
-              return this->judged_in_loops(newton, each, unknowns.size(), iteration);
-            },
-            [&] { this->move_each(each); });
-      }
-      const auto measure = [&] {
-        return this->measure_each(each, are_whole, unknowns.size(), work.has_value());
-      };
-      if (rule == Rule::simplified_newton) {
-        AnySimplifiedNewtonRule<Real>& newton = *memory.simplified.at(name);
-        int& factorised = memory.flags.at(flag);
-        newton.begin(factorised != 0);
-        const auto judge = [&](const Distance& distance, int iteration) {
-          bool serves = factorised != 0;
-          const Answer answer = newton(distance, m_.frame.at(residual), serves, iteration);
-          factorised = serves ? 1 : 0;
-          return std::pair(answer, newton.size());
+    // Linear equations ask for none.
+    const Whole lengths =
+        iterate.rule != Rule::newton
+            ? Whole{}
+            : Whole{address(iterate.values), static_cast<std::size_t>(iterate.count)};
+    return
+        [this, unknowns, ranges, residual, leaves_last = iterate.leaves_last, start, flag,
+         are_whole, lengths, body, rule = iterate.rule, name = iterate.name, work = iterate.work] {
+          Object<Real>& memory = object(start);
+          const auto each = [&](const std::function<void(const Array2&)>& use) {
+            for_all(ranges, 0, [&] {
+              for (const Array2& u : unknowns) use(u);
+            });
+          };
+          if (rule == Rule::newton || rule == Rule::linear) {
+            const bool known = memory.flags.at("known") != 0;
+            AnyNewtonRule<Real>& newton = *memory.rules.at(name);
+            return run_newton(
+                newton, known, body,
+                [&](int iteration) {
+                  return this->judged_in_loops(newton, lengths, each, unknowns.size(), iteration);
+                },
+                [&] { this->move_each(each); });
+          }
+          const auto measure = [&] {
+            return this->measure_each(each, are_whole, unknowns.size(), work.has_value());
+          };
+          if (rule == Rule::simplified_newton) {
+            AnySimplifiedNewtonRule<Real>& newton = *memory.simplified.at(name);
+            int& factorised = memory.flags.at(flag);
+            newton.begin(factorised != 0);
+            const auto judge = [&](const Distance& distance, int iteration) {
+              bool serves = factorised != 0;
+              const Answer answer = newton(distance, m_.frame.at(residual), serves, iteration);
+              factorised = serves ? 1 : 0;
+              return std::pair(answer, newton.size());
+            };
+            return run_contraction(body, measure, judge, [&](Answer) { this->move_each(each); });
+          }
+          AnyFixedPointRule<Real>& fixed_point = *memory.contractions.at(name);
+          fixed_point.begin(work.value_or(0));
+          const auto judge = [&](const Distance& distance, int iteration) {
+            return judged(fixed_point, distance, iteration);
+          };
+          return run_contraction(body, measure, judge, [&](Answer answer) {
+            if (!leaves_last || answer == Answer::go_on || fixed_point.moves())
+              this->move_each(each);
+          });
         };
-        return run_contraction(body, measure, judge, [&](Answer) { this->move_each(each); });
-      }
-      AnyFixedPointRule<Real>& fixed_point = *memory.contractions.at(name);
-      fixed_point.begin(work.value_or(0));
-      const auto judge = [&](const Distance& distance, int iteration) {
-        return judged(fixed_point, distance, iteration);
-      };
-      return run_contraction(body, measure, judge, [&](Answer answer) {
-        if (!leaves_last || answer == Answer::go_on || fixed_point.moves()) this->move_each(each);
-      });
-    };
   }
   Step operator()(const RefineArray& refine) {
     const auto count = static_cast<std::size_t>(refine.count);
@@ -130,8 +137,9 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     return [this, point, lack, gradient, slope, change, target, name, start, rule = refine.rule,
             begun = refine.begun, gives_up = refine.gives_up, steps_of_other = refine.steps,
             patience = refine.patience ? refine.patience->field : "", first = steps(refine.first),
-            body = steps(refine.body)] {
+            body = steps(refine.body), beside = compiled(refine.beside)] {
       AnyRefinement<Real>& refinement = *object(target).refinements.at(name);
+      refinement.round_beside(beside(m_.frame));
       const bool begins = !first.empty();
       const bool is_left = begun && (rule.empty() || !object(start).contractions.at(rule)->moves());
       for (bool more = true, is_first = true; more; is_first = false) {
@@ -158,9 +166,11 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     std::vector<Address> kept;
     for (const std::string& symbol : refine.kept) kept.push_back(address(symbol));
     const Address change{index_of(refine.name), 0, {}};
-    return [this, unknowns, gradient, kept, change, body = steps(refine.body)] {
+    return [this, unknowns, gradient, kept, change, body = steps(refine.body),
+            beside = compiled(refine.beside)] {
       const auto refinement = Blocks<Real>::refinement(static_cast<int>(unknowns.size()),
                                                        static_cast<int>(gradient.size()));
+      refinement->round_beside(beside(m_.frame));
       std::vector<Real> waiting(kept.size());
       for (bool more = true; more;) {
         if (!run_all(body)) return false;

@@ -1,6 +1,7 @@
 // The iterations of a routine, with the rules of generator/numerics.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "generator/interpreter/machine_addresses.hpp"
@@ -97,20 +98,22 @@ class MachineIterations : public MachineAddresses<Real> {
     each([&](const Array2& u) { m_.frame.at(u.value) += m_.frame.at(u.increment); });
   }
   template <class Each>
-  std::pair<Answer, Real> judged_in_loops(AnyNewtonRule<Real>& rule, const Each& each,
-                                          std::size_t arrays, int iteration) const {
+  std::pair<Answer, Real> judged_in_loops(AnyNewtonRule<Real>& rule,
+                                          const typename MachineAddresses<Real>::Whole& lengths,
+                                          const Each& each, std::size_t arrays,
+                                          int iteration) const {
     std::size_t count = 0;
     each([&](const Array2&) { ++count; });
     // They stand in their order, one array after the other; what is summed is one of each.
     std::size_t next = 0;
     const auto unknown = [&] { return next % arrays * (count / arrays) + next / arrays; };
-    std::vector<Real> all_values(count), all_moved(count);
+    std::vector<Real> all_lengths(count), all_moved(count);
+    if (lengths.size > 0) std::copy_n(&m_.frame.at(lengths.first), count, all_lengths.begin());
     each([&](const Array2& u) {
-      all_values[unknown()] = m_.frame.at(u.value);
       all_moved[unknown()] = m_.frame.at(u.increment);
       ++next;
     });
-    rule.know(all_values, all_moved);
+    rule.know(all_lengths, all_moved);
     // In the order in which it is written.
     typename AnyNewtonRule<Real>::Sums sums;
     next = 0;
@@ -127,7 +130,7 @@ class MachineIterations : public MachineAddresses<Real> {
       const Real way = u.by_torn ? magnitude(value - beside) : length;
       sums.uneven += rule.relative(static_cast<int>(j), moved, length, way);
     });
-    return {rule.of_sums(all_values, all_moved, sums, iteration), sums.size};
+    return {rule.of_sums(all_lengths, all_moved, sums, iteration), sums.size};
   }
   // All together, where they are written out: the corrections, then the sums from the left, term by
   // term.
@@ -143,10 +146,10 @@ class MachineIterations : public MachineAddresses<Real> {
     std::vector<Real> ways;
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
       const Real value = m_.frame.at(unknowns[j].target);
-      const Real start = unknowns[j].start(m_.frame);
+      const Real beside = unknowns[j].beside(m_.frame);
       moved.push_back(magnitude(corrections[j]));
-      lengths.push_back(magnitude(value) + magnitude(start));
-      ways.push_back(unknowns[j].by_torn ? magnitude(value - start) : lengths.back());
+      lengths.push_back(magnitude(value) + magnitude(beside));
+      ways.push_back(unknowns[j].by_torn ? magnitude(unknowns[j].way(m_.frame)) : lengths.back());
     }
     const Answer answer = rule.of_each(moved, lengths, ways, iteration);
     return {answer, rule.last()};
@@ -157,7 +160,7 @@ class MachineIterations : public MachineAddresses<Real> {
     for (std::size_t j = 0; j < unknowns.size(); ++j) {
       Real& value = m_.frame.at(unknowns[j].target);
       distance.add(magnitude(increments[j]),
-                   magnitude(value) + magnitude(unknowns[j].start(m_.frame)));
+                   magnitude(value) + magnitude(unknowns[j].beside(m_.frame)));
       value += increments[j];
     }
     return distance;

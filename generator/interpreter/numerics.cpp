@@ -214,6 +214,7 @@ class RefinementOf final : public AnyRefinement<Real> {
     std::copy_n(all.padded, point.size(), point.begin());
     return more;
   }
+  void round_beside(Real length) override { refinement_.beside = length; }
   [[nodiscard]] bool is_first() const override { return refinement_.rounds == 0; }
   [[nodiscard]] bool found() const override { return refinement_.found; }
   [[nodiscard]] Real last() const override { return refinement_.last; }

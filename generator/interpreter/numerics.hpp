@@ -154,6 +154,7 @@ struct AnyRefinement {
   // The same with a ContractionRule that may have settled it.
   virtual bool refine(AnyFixedPointRule<Real>& rule, std::span<Real> point,
                       std::span<const Real> lack, std::span<const Real> slope) = 0;
+  virtual void round_beside(Real length) = 0;
   [[nodiscard]] virtual bool is_first() const = 0;
   [[nodiscard]] virtual bool found() const = 0;
   [[nodiscard]] virtual Real last() const = 0;  // what the last round moved all together

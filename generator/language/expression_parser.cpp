@@ -145,6 +145,12 @@ void ExpressionParser::missing_operator() const {
     const std::string right = shown(after.text);
     const std::string open = find_function(after.text) != nullptr ? "(...)" : "";
     const bool group = right == "(" || left == ")";
+    const bool goes_on = before.kind == TokenKind::number && after.kind == TokenKind::number &&
+                         before.span.end == after.span.begin && right.starts_with('.');
+    if (goes_on && left.find_first_of("eE") != std::string::npos) {
+      fail({before.span.begin, after.span.end}, fmt::format("malformed number '{}{}'", left, right),
+           "an exponent is an integer, as in 2.5e3");
+    }
     fail({before.span.begin, after.span.end},
          fmt::format("missing operator between '{}' and '{}'", left, right),
          group ? "write '*' between them" : fmt::format("write {}*{}{}", left, right, open));
@@ -340,6 +346,15 @@ void ExpressionParser::expect_operator_or_end() {
   }
   reject_non_operator();
   const bool goes_on = is_symbol(token, ",") || is_symbol(token, ";");
+  const bool is_in_digits = is_symbol(token, ",") && previous().kind == TokenKind::number &&
+                            peek(1).kind == TokenKind::number &&
+                            previous().span.end == token.span.begin &&
+                            token.span.end == peek(1).span.begin;
+  if (is_in_digits) {
+    fail({previous().span.begin, peek(1).span.end}, "a comma in a number",
+         fmt::format("write {}.{}: a number has a decimal point", shown(previous().text),
+                     shown(peek(1).text)));
+  }
   fail(token.span, fmt::format("expected an operator or the end of the line, {}", describe(token)),
        goes_on ? "one formula a line: what follows begins a line of its own"
                : "the terms of an expression are joined by + - * / ^");
@@ -348,6 +363,11 @@ void ExpressionParser::expect_operator_or_end() {
 // What can never go on an expression, wherever it stands.
 void ExpressionParser::reject_non_operator() const {
   const Token& token = peek();
+  if (is_symbol(token, "!=")) {
+    fail(
+        token.span, fmt::format("'{}' does not belong in an expression", token.text),
+        "sum(i = 1..N, j = i+1..N, ...) takes every pair once, and none of an element with itself");
+  }
   if (is_symbol(token, "=") || is_comparison(token)) {
     fail(token.span, fmt::format("'{}' does not belong in an expression", token.text),
          "an expression is one number, made with + - * / ^ and functions");

@@ -139,7 +139,8 @@ class Parser {
     Formula result{.name = new_name(example), .value = {}, .text = {}, .comment = {}};
     if (is_symbol(in_.peek(), "(") || is_symbol(in_.peek(), "[")) {
       in_.fail(in_.peek().span, fmt::format("a {} has no arguments and no index", keyword),
-               fmt::format("write {}", example));
+               keyword == "let" ? "write " + example + ", and what has an index within its sum"
+                                : "write " + example);
     }
     equals(example);
     finish(result);
@@ -171,6 +172,10 @@ class Parser {
       RangeSyntax range{.first = in_.expression(), .last = {}, .span = {}};
       if (!in_.accept("..")) in_.expected("'..'", "a range is written q[1..N]");
       range.last = in_.expression();
+      if (is_symbol(in_.peek(), ",")) {
+        in_.fail(in_.peek().span, "an array has one index",
+                 "write q[1..N*M], and q[(i-1)*M+j] for an element of N rows of M");
+      }
       if (!in_.accept("]")) in_.expected("']'", "a range is written q[1..N]");
       range.span = {opener.span.begin, in_.previous().span.end};
       result.range = std::move(range);

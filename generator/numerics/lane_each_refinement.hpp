@@ -1,7 +1,7 @@
 // The end of a fixed-point iteration, below the last place of its unknowns, in each lane as for one
 // trajectory (refinement.hpp has the reasons).  A lane that wants no more has its rounded point
 // again, and keeps what was found there.
-template <int Size, int Components>
+template <int Size, int Components, bool RoundsBeside = false>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
   static constexpr double find_amplifier() {
@@ -15,6 +15,7 @@ struct Refinement {
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
+  Real beside = 0;               // a length that an unknown is rounded with, where it RoundsBeside
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
@@ -70,11 +71,16 @@ struct Refinement {
     for (int j = 0; j < Size; ++j) point[j] = select(goes, point[j] + lack[j], point[j]);
     return true;
   }
+  // Of which an unknown's rounding is a part.
+  Real length(const Real& x) const {
+    if constexpr (RoundsBeside) return magnitude(x) + beside;
+    return magnitude(x);
+  }
   // Of unknowns that lack more than so many units of their own rounding.
-  static Real left_of(const Real* point, const Real* lack, const Real& units) {
+  Real left_of(const Real* point, const Real* lack, const Real& units) const {
     return sum_of(Size, [&](int j) {
-      const Real size = magnitude(lack[j]);
-      return select(size > units * epsilon * magnitude(point[j]), size, Real(0));
+      const Real lacks = magnitude(lack[j]);
+      return select(lacks > units * epsilon * length(point[j]), lacks, Real(0));
     });
   }
   static Real lacking(const Real* lack) {
@@ -103,7 +109,7 @@ struct Refinement {
       const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
       const Real way = moved[j] + error;
       moved[j] = way;
-      const Real unit = epsilon * magnitude(at[j]) + magnitude(way) / 128;
+      const Real unit = epsilon * length(at[j]) + magnitude(way) / 128;
       lacking += select(magnitude(error) * counts > unit, magnitude(error), Real(0));
       return magnitude(error);
     });
@@ -128,7 +134,8 @@ struct Refinement {
   Real far_off(const Real* lack) const {
     return sum_of(Size, [&](int j) {
       const Real error = magnitude(missing[j] + (lack[j] - missing[j]) / amplifier);
-      const Mask moves = (error * 32 > epsilon * magnitude(at[j])) & (error * 1024 > begun);
+      const Real unit = epsilon * length(at[j]);
+      const Mask moves = (error * 32 > unit) & (error * 1024 > begun);
       return select(moves, error, Real(0));
     });
   }

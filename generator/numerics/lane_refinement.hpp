@@ -21,7 +21,9 @@ struct RefinementInLanes : Refinement {
         Lanes::put(this->moved + first, way);
         Lanes::put(point + first, Lanes::at(this->at + first) + Refinement::amplifier * way);
         moves[k] += lane_abs(error);
-        const Lanes unit = 0x1p-52 * lane_abs(Lanes::at(this->at + first)) + lane_abs(way) * 0x1p-7;
+        Lanes length = lane_abs(Lanes::at(this->at + first));
+        if constexpr (Refinement::rounds_beside) length += Lanes(this->beside);
+        const Lanes unit = 0x1p-52 * length + lane_abs(way) * 0x1p-7;
         open[k] += select(lane_abs(error) * counts > unit, lane_abs(error), zero);
       }
     }

@@ -12,7 +12,7 @@
 // cut off is a bias: a 2^-13th of a unit.  The contraction is that of two rounds, of this step or
 // of the one before, four times over; no increment of more than a 32nd of a unit is left.
 //
-template <int Size, int Components>
+template <int Size, int Components, bool RoundsBeside = false>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
   static constexpr Real find_amplifier() {
@@ -23,11 +23,13 @@ struct Refinement {
   static constexpr Real amplifier = find_amplifier();
   static constexpr int size = Size;
   static constexpr int components = Components;
+  static constexpr bool rounds_beside = RoundsBeside;
   Real change[Components] = {};  // of the gradient, from the rounded point to the solution
   Real slope[Components] = {};   // the gradient at the rounded point
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
+  Real beside = 0;               // a length that an unknown is rounded with, where it RoundsBeside
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
@@ -88,7 +90,7 @@ struct Refinement {
     // See Note [what a round leaves].
     const Real counts = times_counted();
     const Real open = sum_of<Size>([&](int j) {
-      const Real unit = epsilon * magnitude(at[j]) + magnitude(moved[j]) / 128;
+      const Real unit = epsilon * length(at[j]) + magnitude(moved[j]) / 128;
       return magnitude(error[j]) * counts > unit ? magnitude(error[j]) : Real(0);
     });
     learn_of(lengths_of(error));
@@ -122,11 +124,16 @@ struct Refinement {
   void take_slopes(const Real* gradient) {
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
   }
+  // Of which an unknown's rounding is a part.
+  Real length(Real x) const {
+    if constexpr (RoundsBeside) return magnitude(x) + beside;
+    return magnitude(x);
+  }
   // Of unknowns that lack more than so many units of their own rounding.
-  static Real left(const Real* point, const Real* lack, Real units) {
+  Real left(const Real* point, const Real* lack, Real units) const {
     return sum_of<Size>([&](int j) {
-      const Real size = magnitude(lack[j]);
-      return size > units * epsilon * magnitude(point[j]) ? size : Real(0);
+      const Real lacks = magnitude(lack[j]);
+      return lacks > units * epsilon * length(point[j]) ? lacks : Real(0);
     });
   }
   static Real lacking(const Real* lack) {
@@ -159,7 +166,8 @@ struct Refinement {
     }
     return sum_of<Size>([&](int j) {
       const Real error = magnitude(missing[j] + (lack[j] - missing[j]) / amplifier);
-      const bool moves = error * 32 > epsilon * magnitude(at[j]) && error * 1024 > begun;
+      const Real unit = epsilon * length(at[j]);
+      const bool moves = error * 32 > unit && error * 1024 > begun;
       return moves && error > noise ? error : Real(0);
     });
   }

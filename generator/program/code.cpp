@@ -20,6 +20,7 @@ void mention(const std::vector<Unknown>& unknowns, Mentions& found) {
   for (const Unknown& unknown : unknowns) {
     found.written.insert(unknown.symbol);
     mention(unknown.start, found);
+    mention(unknown.beside, found);
     mention(unknown.correction, found);
   }
 }
@@ -96,6 +97,7 @@ struct Reader {
   }
   void operator()(const RefineArray& refine) const {
     found.objects.insert(refine.refinement.object);
+    mention(refine.beside, found);
     mention(refine.first, found);
     mention(refine.body, found);
   }
@@ -103,6 +105,7 @@ struct Reader {
     mention(refine.unknowns, found);
     mention(refine.body, found);
     for (const Expression& e : refine.gradient) mention(e, found);
+    mention(refine.beside, found);
   }
   void operator()(const Sweep& sweep) const {
     mention(sweep.unknowns, found);
@@ -157,7 +160,9 @@ struct Writer {
   void operator()(Refine& refine) const {
     (*this)(refine.unknowns);
     std::ranges::for_each(refine.gradient, use);
+    use(refine.beside);
   }
+  void operator()(RefineArray& refine) const { use(refine.beside); }
   void operator()(Sweep& sweep) const { (*this)(sweep.unknowns); }
   void operator()(Return& end) const {
     if (end.value) use(*end.value);
@@ -165,6 +170,7 @@ struct Writer {
   void operator()(std::vector<Unknown>& unknowns) const {
     for (Unknown& unknown : unknowns) {
       use(unknown.start);
+      use(unknown.beside);
       use(unknown.correction);
     }
   }
@@ -258,6 +264,12 @@ std::vector<Body*> inner_bodies(Instruction& instruction) {
     bodies.push_back(const_cast<Body*>(body));  // of an instruction that is not const
   }
   return bodies;
+}
+
+std::string refinement_type(int unknowns, int components, bool rounds_beside) {
+  const char* const besides = rounds_beside ? ", true" : "";
+  return "Refinement<" + std::to_string(unknowns) + ", " + std::to_string(components) + besides +
+         ">";
 }
 
 std::string find_in(const Body& body, const std::function<std::string(const Instruction&)>& look) {

@@ -157,6 +157,7 @@ struct Unknown {
   Expression start;       // where nothing is known from earlier steps
   Expression correction;  // known after the body
   int memory = 0;         // where in start.value its solution is kept
+  Expression beside;      // what it is rounded with as well
   // Is it moved by a momentum that is torn out of the equations?  Then its way counts: see Note
   // [what every unknown lacks] in numerics/newton_rule_of_many.hpp.
   bool by_torn = false;
@@ -191,7 +192,8 @@ struct IterateArray {
   int lanes = 0;  // so many of one array of unknowns are moved at once, as of For
   // Of a ContractionRule: what the matrix of the solver behind it costs, or 0.
   std::optional<int> work = {};
-  // Of Newton and linear equations: all values, all increments, and their number.
+  // Of Newton: what all are rounded with and all increments; of linear equations, too, their
+  // number.
   Place values = {}, increments = {};
   int count = 0;
   // Of a fixed point: whether the increment with which it ends is left to Refinement, unless a
@@ -206,6 +208,8 @@ inline constexpr int kStepsOfNewton = 32;
 // What is said where it is emitted.
 inline constexpr const char* kRefinementRemark =
     "What the equations lack at the rounded unknowns is solved for, too.";
+// Of so many unknowns and components of the gradient; does it round with a length besides?
+[[nodiscard]] std::string refinement_type(int unknowns, int components, bool rounds_beside);
 // What a fixed point lacks below the last place of its unknowns: see numerics/refinement.hpp.  The
 // values of the body stay those at the unknowns; element j of the object's `change` is what the
 // component `gradient` j lacks there.
@@ -215,17 +219,19 @@ struct Refine {
   Body body;
   std::vector<std::string> kept;
   std::vector<Expression> gradient;
+  Expression beside = {};  // a length that its unknowns are rounded with besides, or 0
 };
 // The same for unknowns in an array: the body leaves the gradient in an array of so many elements
 // and what the unknowns lack in another.  `refinement` is a field of start.  If there is something
 // in `first` that does so at the rounded unknowns, the body only where they have been moved.
 struct RefineArray {
   Place refinement, point, lack, gradient;
-  std::string rule = {};  // a ContractionRule of start that may have settled it, or none
-  int count = 0;          // of unknowns
-  int components = 0;     // of the gradient
-  bool begun = false;     // the body has been run there, unless the rule has moved it
-  bool gives_up = false;  // fails where the rule finds that another solver is worth its work
+  std::string rule = {};   // a ContractionRule of start that may have settled it, or none
+  int count = 0;           // of unknowns
+  int components = 0;      // of the gradient
+  bool begun = false;      // the body has been run there, unless the rule has moved it
+  bool gives_up = false;   // fails where the rule finds that another solver is worth its work
+  Expression beside = {};  // as of Refine
   // Where the solution is not found the routine fails, and Alternate's second solver has so many
   // steps from then on.
   std::optional<Place> patience = {};

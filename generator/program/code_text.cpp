@@ -161,6 +161,7 @@ class Printer {
     }
     if (refine.begun || !refine.first.empty()) line("then, where it has been moved:");
     inside(refine.body);
+    rounded_beside(refine.beside);
     if (refine.gives_up) line("fail where it contracts slowly");
     if (refine.patience) {
       line(fmt::format("where it is not found, {} = {}", to_text(*refine.patience), refine.steps));
@@ -169,6 +170,7 @@ class Printer {
   void operator()(const Refine& refine) {
     line(fmt::format("refine the fixed point, {}:", refine.name));
     inside(refine.body);
+    rounded_beside(refine.beside);
     unknowns(refine.unknowns, "next");
   }
   void operator()(const Sweep& sweep) {
@@ -233,11 +235,16 @@ class Printer {
     print(body);
     --depth_;
   }
+  void rounded_beside(const Expression& length) {
+    if (!length.is_zero()) line("rounded beside " + to_text(length));
+  }
   void unknowns(const std::vector<Unknown>& unknowns, const char* what) {
     ++depth_;
     for (const Unknown& u : unknowns) {
-      line(fmt::format("{} {} by {}, from {}", what, u.symbol, to_text(u.correction),
-                       to_text(u.start)));
+      const std::string beside =
+          u.beside == u.start ? "" : fmt::format(", beside {}", to_text(u.beside));
+      line(fmt::format("{} {} by {}, from {}{}", what, u.symbol, to_text(u.correction),
+                       to_text(u.start), beside));
     }
     --depth_;
   }

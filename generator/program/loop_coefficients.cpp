@@ -4,8 +4,6 @@
 
 namespace hamgen {
 
-namespace {
-
 // D = h (h alpha (1 - alpha) m / (1 + h beta m) - gamma).
 Expression scale_of(const StepWeights& weights, const Expression& mass) {
   const Expression h = step_size();
@@ -14,15 +12,14 @@ Expression scale_of(const StepWeights& weights, const Expression& mass) {
          (h * alpha * (Expression(1) - alpha) * mass / (Expression(1) + h * beta * mass) - gamma);
 }
 
-}  // namespace
-
 std::vector<AffineIndex> loop_mass_index(const ArrayPlan& plan, const std::string& index) {
   return plan.mass ? std::vector<AffineIndex>{} : std::vector{affine(index)};
 }
 
 std::optional<Coefficients> loop_coefficients(const Environment& environment,
                                               const StepWeights& weights, const ArrayPlan& plan,
-                                              bool tangent) {
+                                              bool tangent,
+                                              const std::vector<NamedWeight>& beside) {
   const int n = environment.degrees_of_freedom;
   const bool needs_drift = plan.reduced && weights.p_by_p.has_value();
   const bool needs_scale = plan.reduced && plan.matrix.has_value();
@@ -66,6 +63,10 @@ std::optional<Coefficients> loop_coefficients(const Environment& environment,
     } else {
       b.body().push_back(for_each(counting("i", n), std::move(each)));
     }
+  }
+  for (const auto& [name, value, remark] : beside) {
+    record.fields.push_back({.name = name, .remark = remark});
+    b.body().push_back({Assign{b.at("k", name).name(), value}});
   }
   if (record.fields.empty()) return {};
   return Coefficients{.record = std::move(record), .prepare = b.take(), .places = {}};

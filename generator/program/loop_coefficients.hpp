@@ -12,10 +12,15 @@ namespace hamgen {
 //   k.drift   dH/dp_i at p = 0
 //   k.mass    d2H/dp_i^2
 //   k.scale   D with the matrix I + D V''
-// None if the step takes nothing.
+// and what the unknowns of an iteration are rounded with besides, k.beside_q and k.beside_p: see
+// Note [forces that cancel].  None if the step takes nothing.
 [[nodiscard]] std::optional<Coefficients> loop_coefficients(const Environment& environment,
                                                             const StepWeights& weights,
-                                                            const ArrayPlan& plan, bool tangent);
+                                                            const ArrayPlan& plan, bool tangent,
+                                                            const std::vector<NamedWeight>& beside);
+
+// D of the matrix I + D V'', where all d2H/dp_i^2 are `mass`.
+[[nodiscard]] Expression scale_of(const StepWeights& weights, const Expression& mass);
 
 // The index of k.mass: none if all masses are one.
 [[nodiscard]] std::vector<AffineIndex> loop_mass_index(const ArrayPlan& plan,

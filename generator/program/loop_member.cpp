@@ -23,7 +23,7 @@ class LoopMember : LoopStage {
     const bool solved = iterates(arrays_);
     if (solved || plan_.sweeps) {
       if (std::optional<Coefficients> found =
-              loop_coefficients(environment_, weights_, arrays_, tangent_)) {
+              loop_coefficients(environment_, weights_, arrays_, tangent_, beside_)) {
         code_.records.push_back(std::move(found->record));
         code_.routines.push_back(std::move(found->prepare));
         has_coefficients_ = true;
@@ -76,6 +76,7 @@ class LoopMember : LoopStage {
                               .values = {0},
                               .type = "bool"});
     }
+    if (!beside_.empty()) array("beside", unknowns(), "what they are rounded with as well");
     if (both() && !arrays_.reduced)
       array("expected", unknowns(), "what the fixed point began with");
     if (arrays_.reduced && !velocity_) array("momentum", n_, "of zbar");
@@ -112,7 +113,7 @@ class LoopMember : LoopStage {
       start.fields.push_back(
           {.name = "rule", .type = settles() ? contraction : std::string(plan_.rule)});
       start.fields.push_back(
-          {.name = "refinement", .type = fmt::format("Refinement<{}, {}>", unknowns(), 2 * n_)});
+          {.name = "refinement", .type = refinement_type(unknowns(), 2 * n_, rounds_beside())});
     }
     code_.records.push_back(std::move(start));
   }
@@ -210,12 +211,11 @@ class LoopMember : LoopStage {
       const Expression p = state(b, "z", "p");
       copy.push_back({Assign{momentum(b).name(), p}});
     }
-    Body all;
-    all.push_back(for_each(elements(), std::move(copy)));
-    return all;
+    return {for_each(elements(), std::move(copy))};
   }
   void add_start(RoutineBuilder& b) const {
     b.body().push_back({If{{"start", "known"}, false, from_state(b)}});
+    add_rounded_beside(b);
   }
   [[nodiscard]] Body iteration_body(RoutineBuilder& b, bool in_parts) const {
     Body body;
@@ -251,7 +251,7 @@ class LoopMember : LoopStage {
                          .ranges = {elements()},
                          .unknowns = unknown_arrays(b),
                          .body = std::move(body),
-                         .values = {"start", "value"},
+                         .values = {"start", beside_.empty() ? "value" : "beside"},
                          .increments = {"start", "lack"},
                          .count = static_cast<int>(unknowns())};
     b.body().push_back({std::move(iterate), {"Newton's iteration on what the equations lack."}});
@@ -292,6 +292,7 @@ class LoopMember : LoopStage {
                                     .components = 2 * n_,
                                     .begun = true,
                                     .gives_up = both(),
+                                    .beside = refined_beside(b),
                                     .body = refined},
                         {kRefinementRemark}});
   }
@@ -380,7 +381,7 @@ class LoopMember : LoopStage {
       const std::vector<AffineIndex> index = {affine("i", first)};
       list.push_back({.value = b.at("start", "value", index).name(),
                       .increment = b.at("start", "lack", index).name(),
-                      .beside = state(b, "z", first == 0 ? "q" : "p"),
+                      .beside = rounded_with(b, first != 0),
                       .by_torn = arrays_.reduced,
                       .index = index.front()});
     }

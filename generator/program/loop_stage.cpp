@@ -1,8 +1,10 @@
 #include "generator/program/loop_stage.hpp"
 
+#include "generator/mechanics/cancelling_forces.hpp"
 #include "generator/program/kernel_routines.hpp"
 #include "generator/program/loop_coefficients.hpp"
 #include "generator/program/lower.hpp"
+#include "generator/solvers/array_matrix.hpp"
 
 namespace hamgen {
 
@@ -62,6 +64,40 @@ std::vector<Place> LoopStage::given(const std::vector<Argument>& arguments) {
 Expression LoopStage::momentum(RoutineBuilder& b) const {
   return arrays_.reduced ? b.at("start", "momentum", {affine("i")})
                          : b.at("start", "value", {affine("i", n_)});
+}
+
+void LoopStage::find_rounded_beside() {
+  const Mechanics of_energy = plan_.equations.of_energy();
+  if (!of_energy.is_separable() || !has_diagonal_kinetic_energy(of_energy)) return;
+  const std::optional<CancellingForce> force = cancelling_force_in_loops(of_energy);
+  const std::optional<Expression> mass = uniform_mass(of_energy);
+  if (!force || !mass) return;
+  const Expression of_q = rounded_beside(*force, scale_of(weights_, *mass));
+  if (of_q.is_zero()) return;
+  beside_ = {{"beside_q", of_q, "what forces that cancel round q with"}};
+  if (arrays_.reduced) return;
+  // They move q by way of h dH/dp.
+  const Expression of_p = Expression::apply("abs", {of_q * Expression(2) / (*mass * step_size())});
+  beside_.push_back({"beside_p", of_p, "and p"});
+}
+
+void LoopStage::add_rounded_beside(RoutineBuilder& b) const {
+  if (beside_.empty()) return;
+  Body each;
+  for (std::size_t half = 0; half < beside_.size(); ++half) {
+    const Expression z = state(b, "z", half == 0 ? "q" : "p");
+    each.push_back({Assign{rounded_with(b, half == 1).name(), z + b.at("k", beside_[half].name)}});
+  }
+  b.body().push_back(for_each(elements(), std::move(each)));
+}
+
+Expression LoopStage::rounded_with(RoutineBuilder& b, bool momentum) const {
+  if (beside_.empty()) return state(b, "z", momentum ? "p" : "q");
+  return b.at("start", "beside", {affine("i", momentum ? n_ : 0)});
+}
+
+Expression LoopStage::refined_beside(RoutineBuilder& b) const {
+  return beside_.empty() ? Expression(0) : b.at("k", beside_.front().name);
 }
 
 Expression LoopStage::lack(RoutineBuilder& b, bool momentum) const {

@@ -42,6 +42,7 @@ class LoopStage {
       velocity_ = local_velocity(mechanics_, "i");
     const bool moves_q = weights_.q_by_p.has_value() && !weights_.shares;
     if (is_sharp() && moves_q && !raised() && has_linear_forces(mechanics_)) weights_.split_flow();
+    if (iterates(arrays_) && !is_linear()) find_rounded_beside();
   }
 
  protected:
@@ -110,6 +111,11 @@ class LoopStage {
   }
   // With the momenta torn out the derivative is I + D V'', else I - h (I/2 + C) J H''.
   [[nodiscard]] Routine differentiate() const;
+  // start.beside = z and what forces that cancel round it with; the latter for Refinement, or 0.
+  void add_rounded_beside(RoutineBuilder& b) const;
+  [[nodiscard]] Expression rounded_with(RoutineBuilder& b, bool momentum) const;
+  [[nodiscard]] Expression refined_beside(RoutineBuilder& b) const;
+  [[nodiscard]] bool rounds_beside() const { return !beside_.empty(); }
   // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.
   void add_stage(RoutineBuilder& b, Body& each) const;
   // dz, and rest where there is one, by the gradient at the stage: by Refinement's where the
@@ -128,8 +134,11 @@ class LoopStage {
   std::optional<LocalVelocity> velocity_;  // of torn momenta
   bool has_coefficients_ = false;
   bool is_quadratic_;  // is H, with a constant matrix?
+  // Coefficients: what q, and p, are rounded with besides, or none.
+  std::vector<NamedWeight> beside_;
 
  private:
+  void find_rounded_beside();
   // Is it known what the torn momenta lose in rounding?
   [[nodiscard]] bool knows_momentum_error() const;
   Expression lost_of_momentum(RoutineBuilder& b, Body& each) const;

@@ -86,41 +86,6 @@ Evaluation rotated(const Evaluation& gradient) {
   return field;
 }
 
-// Of p^2/2m + V(q), with numbers or parameters for 1/m.
-std::optional<SecondOrder> second_order_of(const Mechanics& mechanics) {
-  if (!mechanics.is_separable()) return {};
-  const int n = mechanics.degrees_of_freedom;
-  if (mechanics.keeps_sums()) {
-    if (!has_diagonal_kinetic_energy(mechanics)) return {};
-    return SecondOrder{.unit_mobility = uniform_mass(mechanics) == Expression(1)};
-  }
-  // abs(p)'' is 0 too, and its velocity jumps.
-  const std::set<std::string> beyond = non_polynomial_symbols(mechanics.energy);
-  for (int i = n; i < 2 * n; ++i) {
-    if (beyond.contains(mechanics.variable(i).name())) return {};
-  }
-  SecondOrder result;
-  std::set<std::string> state;
-  for (int i = 0; i < 2 * n; ++i) state.insert(mechanics.variable(i).name());
-  for (int i = 0; i < n; ++i) {
-    for (int j = i + 1; j < n; ++j) {
-      if (!mechanics.second_derivative(n + i, n + j).is_zero()) return {};
-    }
-    result.mobility.push_back(mechanics.second_derivative(n + i, n + i));
-    for (const std::string& name : symbols(result.mobility.back())) {
-      if (state.contains(name)) return {};
-    }
-  }
-  result.unit_mobility = std::ranges::all_of(
-      result.mobility, [](const Expression& each) { return each == Expression(1); });
-  const auto middle = mechanics.gradient.begin() + n;
-  std::vector<Expression> forces;
-  for (auto it = mechanics.gradient.begin(); it != middle; ++it) forces.push_back(-*it);
-  result.forces = evaluate_together(forces);
-  result.velocities = evaluate_together({middle, mechanics.gradient.end()});
-  return result;
-}
-
 void build_hessian(LoweredStep& lowered, const Mechanics& mechanics) {
   std::vector<Expression> values;
   for (const auto& [place, value] : mechanics.hessian) {
@@ -200,6 +165,40 @@ void add_modified_energies(LoweredStep& lowered, const std::vector<Expression>& 
 }
 
 }  // namespace
+
+std::optional<SecondOrder> second_order_of(const Mechanics& mechanics) {
+  if (!mechanics.is_separable()) return {};
+  const int n = mechanics.degrees_of_freedom;
+  if (mechanics.keeps_sums()) {
+    if (!has_diagonal_kinetic_energy(mechanics)) return {};
+    return SecondOrder{.unit_mobility = uniform_mass(mechanics) == Expression(1)};
+  }
+  // abs(p)'' is 0 too, and its velocity jumps.
+  const std::set<std::string> beyond = non_polynomial_symbols(mechanics.energy);
+  for (int i = n; i < 2 * n; ++i) {
+    if (beyond.contains(mechanics.variable(i).name())) return {};
+  }
+  SecondOrder result;
+  std::set<std::string> state;
+  for (int i = 0; i < 2 * n; ++i) state.insert(mechanics.variable(i).name());
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      if (!mechanics.second_derivative(n + i, n + j).is_zero()) return {};
+    }
+    result.mobility.push_back(mechanics.second_derivative(n + i, n + i));
+    for (const std::string& name : symbols(result.mobility.back())) {
+      if (state.contains(name)) return {};
+    }
+  }
+  result.unit_mobility = std::ranges::all_of(
+      result.mobility, [](const Expression& each) { return each == Expression(1); });
+  const auto middle = mechanics.gradient.begin() + n;
+  std::vector<Expression> forces;
+  for (auto it = mechanics.gradient.begin(); it != middle; ++it) forces.push_back(-*it);
+  result.forces = evaluate_together(forces);
+  result.velocities = evaluate_together({middle, mechanics.gradient.end()});
+  return result;
+}
 
 LoweredStep lower_step(const SolvePlan& plan, const StepWishes& wishes) {
   LoweredStep lowered = lowered_step(plan);

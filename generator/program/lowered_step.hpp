@@ -16,11 +16,12 @@ namespace hamgen {
 
 // A variable of a solver's loop.
 struct LoopVariable {
-  std::string name;       // "bar(q)", or "H(q)" for sweeps
-  Expression cold;        // its start value when nothing is known from earlier steps
-  Expression next;        // fixed point and sweeps: the new value
-  Expression correction;  // Newton, size <= 3: what is added
-  bool by_torn = false;   // see Unknown
+  std::string name;        // "bar(q)", or "H(q)" for sweeps
+  Expression cold;         // its start value when nothing is known from earlier steps
+  Expression next;         // fixed point and sweeps: the new value
+  Expression correction;   // Newton, size <= 3: what is added
+  bool by_torn = false;    // see Unknown
+  Expression beside = {};  // what it is rounded with as well
 };
 
 // A loop.
@@ -39,6 +40,7 @@ struct Solve {
   // at the exact solution, for the unknowns are rounded.
   std::vector<Expression> gradient;
   std::vector<std::string> changes;
+  Expression refined_beside = {};  // a length that the unknowns are rounded with besides
 };
 
 struct Stage {
@@ -119,6 +121,8 @@ struct LoweredStep {
 
 // Values of free symbols, computed together: what they share is computed once.
 [[nodiscard]] Evaluation evaluate_together(const std::vector<Expression>& values);
+// Of H = p^2/2m + V(q), with numbers or parameters for 1/m.
+[[nodiscard]] std::optional<SecondOrder> second_order_of(const Mechanics& mechanics);
 [[nodiscard]] LoweredStep lower_step(const SolvePlan& plan, const StepWishes& wishes = {});
 // With what the tangent map takes besides.
 [[nodiscard]] LoweredStep with_tangent(LoweredStep lowered);

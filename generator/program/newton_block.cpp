@@ -84,7 +84,7 @@ void StepBuilder::add_newton(const Block& block) {
     const bool by_torn =
         std::ranges::find(block.torn, x < n_ ? x + n_ : x - n_) != block.torn.end();
     pending.solve.variables.push_back({stage_value_[index(x)].name(), {}, {}, {}, by_torn});
-    pending.cold.push_back(lowering_.want(equations_.mechanics.variable(x), before(stage_)));
+    begin_with_state(pending, x);
     if (written_out) {
       pending.correction.push_back(lowering_.want(newton.increments[j], newton.where));
     }
@@ -291,7 +291,7 @@ void StepBuilder::add_simplified_newton(const Block& block) {
   }
   for (const int v : newton.members) {
     pending.solve.variables.push_back({stage_value_[index(v)].name(), {}, {}, {}});
-    pending.cold.push_back(lowering_.want(equations_.mechanics.variable(v), before(stage_)));
+    begin_with_state(pending, v);
     if (pending.solve.corrections.empty()) {
       pending.correction.push_back(lowering_.want(increments[v], newton.where));
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "generator/program/routine_builder.hpp"
-#include "generator/program/stage_routines.hpp"
 
 namespace hamgen {
 
@@ -117,6 +116,24 @@ class ExplicitRoutine {
 };
 
 }  // namespace
+
+void read_state(RoutineBuilder& b, Body& body, const Environment& environment,
+                const std::string& state, const Place& array, bool arrays) {
+  const int n = environment.degrees_of_freedom;
+  const auto element = [&](const AffineIndex& index) {
+    return b.at(array.object, array.field, {index}).name();
+  };
+  if (arrays) {
+    Body each;
+    each.push_back({Assign{element(affine("j")), b.at(state, "q", {affine("j")})}});
+    each.push_back({Assign{element(affine("j", n)), b.at(state, "p", {affine("j")})}});
+    body.push_back(for_each(counting("j", n), std::move(each)));
+    return;
+  }
+  for (int i = 0; i < 2 * n; ++i) {
+    body.push_back({Assign{element(affine(i)), b.at(environment.place(state, i))}});
+  }
+}
 
 std::string explicit_slope(std::size_t stage) { return fmt::format("f_{}", stage + 1); }
 

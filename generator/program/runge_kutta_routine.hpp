@@ -5,6 +5,7 @@
 #include "generator/program/environment.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/program.hpp"
+#include "generator/program/routine_builder.hpp"
 
 namespace hamgen {
 
@@ -14,5 +15,9 @@ void add_explicit_runge_kutta(Program& code, const Environment& environment,
                               const StageTable& table);
 // The array of J grad H at a stage.
 [[nodiscard]] std::string explicit_slope(std::size_t stage);
+
+// The array `name` of 2n numbers is the state.
+void read_state(RoutineBuilder& b, Body& body, const Environment& environment,
+                const std::string& state, const Place& array, bool arrays);
 
 }  // namespace hamgen

@@ -87,7 +87,7 @@ class SolveRoutine {
     const Solve& solve = *stage.solve;
     for (const Statement& s : solve.body) collect_symbols(s.value, used);
     for (const LoopVariable& v : solve.variables) {
-      for (const Expression& e : {v.cold, v.next, v.correction}) collect_symbols(e, used);
+      for (const Expression& e : {v.cold, v.beside, v.next, v.correction}) collect_symbols(e, used);
     }
     for (const Expression& e : solve.residual) collect_symbols(e, used);
     for (const Expression& e : solve.gradient) collect_symbols(e, used);
@@ -152,6 +152,7 @@ class SolveRoutine {
                                   .start = v.cold,
                                   .correction = newton ? v.correction : v.next,
                                   .memory = memory_++,
+                                  .beside = v.beside,
                                   .by_torn = v.by_torn});
       if (!solve.corrections.empty()) {
         iterate.kept.push_back(solve.corrections[j]);
@@ -247,7 +248,8 @@ class SolveRoutine {
                   .unknowns = iterate.unknowns,
                   .body = iterate.body,
                   .kept = iterate.kept,
-                  .gradient = solve.gradient};
+                  .gradient = solve.gradient,
+                  .beside = solve.refined_beside};
     for (std::size_t j = 0; j < solve.changes.size(); ++j) {
       routine_.places[solve.changes[j]] = {
           refine.name, "change", {{.constant = static_cast<long>(j), .factors = {}}}};

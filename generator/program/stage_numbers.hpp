@@ -1,6 +1,8 @@
 // The numbers of an implicit Runge-Kutta method.
 #pragma once
 
+#include <optional>
+
 #include "generator/program/coefficients.hpp"
 #include "generator/program/lowered_step.hpp"
 
@@ -17,5 +19,13 @@ namespace hamgen {
 // By component tables are [j][i], and 0 for what is no stage.
 [[nodiscard]] Coefficients stage_coefficients(const Environment& environment,
                                               const LoweredStep& lowered);
+// What forces that cancel round coordinates with, and momenta where these are unknowns, else 0: see
+// Note [forces that cancel].
+//   k.beside, k.beside_p
+struct StageRounding {
+  Expression q, p;
+};
+// None where there are no such forces, or where H is not p^2/2m + V(q).
+[[nodiscard]] std::optional<StageRounding> stages_rounded_beside(const LoweredStep& lowered);
 
 }  // namespace hamgen

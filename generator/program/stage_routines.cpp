@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/stage_coordinates.hpp"
 #include "generator/program/stage_matrix.hpp"
 #include "generator/program/stage_numbers.hpp"
@@ -18,7 +19,8 @@ class StageRoutines : StageParts {
         environment_(environment),
         lowered_(lowered),
         solver_(*lowered.plan.stage_solver),
-        matrix_(lowered) {
+        matrix_(lowered),
+        beside_(stages_rounded_beside(lowered)) {
     if (lowered.second_order) coordinates_.emplace(environment, lowered);
   }
 
@@ -68,6 +70,7 @@ class StageRoutines : StageParts {
     } else {
       array("state", dimension_, "z as an array");
     }
+    if (beside_) array("beside", states(), "what they are rounded with as well");
     array("small", dimension_, "the carry");
     array("value", unknowns(), "Y_i");
     array("slope", unknowns(), "L_i = h b_i f(Y_i)");
@@ -93,7 +96,7 @@ class StageRoutines : StageParts {
       record.fields.push_back(
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
-    std::string refinement = fmt::format("Refinement<{}, {}>", iterated(), unknowns());
+    std::string refinement = refinement_type(iterated(), unknowns(), beside_.has_value());
     if (layout_.packs() > 0) refinement = "RefinementInLanes<Lanes, " + refinement + ">";
     record.fields.push_back({.name = "refinement", .type = std::move(refinement)});
     return record;
@@ -138,19 +141,17 @@ class StageRoutines : StageParts {
   }
 
   [[nodiscard]] IterateArray iteration(RoutineBuilder& b, Rule rule, Body body) const {
+    const AffineIndex place = by_component() ? affine("j") : row();
     IterateArray iterate{.rule = rule,
                          .name = rule == Rule::fixed_point ? "rule" : "newton",
                          .ranges = {all_stages(), all_components()},
-                         .unknowns = {{.value = of_start(b, "value", row()).name(),
-                                       .increment = of_start(b, "lack", row()).name(),
-                                       .beside = of_start(b, "state", affine("j"))}},
+                         .unknowns = {{.value = of_start(b, "value", place).name(),
+                                       .increment = of_start(b, "lack", place).name(),
+                                       .beside = of_start(b, rounded(), affine("j"))}},
                          .body = std::move(body)};
     if (by_component()) {
       iterate.ranges = {counting("j", iterated())};
       iterate.lanes = layout_.packs();
-      iterate.unknowns = {{.value = of_start(b, "value", affine("j")).name(),
-                           .increment = of_start(b, "lack", affine("j")).name(),
-                           .beside = of_start(b, "state", affine("j"))}};
     }
     if (rule == Rule::fixed_point) return iterate;
     iterate.factorised = Place{"start", "factorised"};
@@ -207,6 +208,20 @@ class StageRoutines : StageParts {
     return b.take();
   }
 
+  // Of these arrays: of coordinates, then of momenta where these are unknowns.
+  [[nodiscard]] int states() const { return by_component() ? iterated() : dimension_; }
+  [[nodiscard]] const char* rounded() const { return beside_ ? "beside" : "state"; }
+  void add_beside(RoutineBuilder& b) const {
+    const int half = coordinates_ ? states() : states() / 2;
+    const auto add = [&](int first, const char* length) {
+      const auto at = [&](const char* array) { return of_start(b, array, affine("j", first)); };
+      Body each{{Assign{at("beside").name(), at("state") + b.at("k", length)}}};
+      b.body().push_back(for_each(counting("j", half), std::move(each)));
+    };
+    add(0, "beside");
+    if (!coordinates_) add(half, "beside_p");
+  }
+
   // The stages of the polynomial through those of the last step, or the state.
   void add_start_values(RoutineBuilder& b) const {
     if (by_component()) {
@@ -214,6 +229,7 @@ class StageRoutines : StageParts {
     } else {
       read_state(b, b.body(), environment_, "z", {"start", "state"}, is_array());
     }
+    if (beside_) add_beside(b);
     read_state(b, b.body(), environment_, "carry", {"start", "small"}, is_array());
     const Place known{"start", "known"};
     Body ahead;
@@ -297,6 +313,7 @@ class StageRoutines : StageParts {
                        .gradient = {"start", "slope"},
                        .count = iterated(),
                        .components = unknowns()};
+    if (beside_) refine.beside = b.at("k", "beside");
     refine.steps = solver_ == StageSolver::both ? kStepsOfNewton : 0;
     if (refine.steps > 0) refine.patience = {"start", "patience"};
     const auto contract = [&](Body& body) {
@@ -369,28 +386,11 @@ class StageRoutines : StageParts {
   const LoweredStep& lowered_;
   StageSolver solver_;
   StageMatrix matrix_;
+  std::optional<StageRounding> beside_;
   std::optional<StageCoordinates> coordinates_;
 };
 
 }  // namespace
-
-void read_state(RoutineBuilder& b, Body& body, const Environment& environment,
-                const std::string& state, const Place& array, bool arrays) {
-  const int n = environment.degrees_of_freedom;
-  const auto element = [&](const AffineIndex& index) {
-    return b.at(array.object, array.field, {index}).name();
-  };
-  if (arrays) {
-    Body each;
-    each.push_back({Assign{element(affine("j")), b.at(state, "q", {affine("j")})}});
-    each.push_back({Assign{element(affine("j", n)), b.at(state, "p", {affine("j")})}});
-    body.push_back(for_each(counting("j", n), std::move(each)));
-    return;
-  }
-  for (int i = 0; i < 2 * n; ++i) {
-    body.push_back({Assign{element(affine(i)), b.at(environment.place(state, i))}});
-  }
-}
 
 void add_stages(Program& code, const Environment& environment, const LoweredStep& lowered) {
   StageRoutines(code, environment, lowered).add();

@@ -16,8 +16,4 @@ namespace hamgen {
 // where there is a second order forces.
 void add_stages(Program& code, const Environment& environment, const LoweredStep& lowered);
 
-// The array `name` of 2n numbers is the state.
-void read_state(RoutineBuilder& b, Body& body, const Environment& environment,
-                const std::string& state, const Place& array, bool arrays);
-
 }  // namespace hamgen

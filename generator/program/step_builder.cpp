@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "generator/mechanics/cancelling_forces.hpp"
 #include "generator/program/arithmetic.hpp"
 
 namespace hamgen {
@@ -77,6 +78,8 @@ StepBuilder::StepBuilder(const SolvePlan& plan)
   };
   splits_products_ = std::ranges::any_of(plan_.blocks, is_newton) && !solves_constants_ &&
                      !is_contracted && !plan_.sweeps && has_linear_force();
+  rounded_beside_.resize(index(2 * n_), Expression(0));
+  if (is_contracted || has_block(BlockKind::newton)) find_rounded_beside();
   known_gradient_.resize(index(2 * n_), false);
   correction_.resize(index(2 * n_));
 }
@@ -296,12 +299,16 @@ void StepBuilder::add_fixed_point(const Block& block) {
     for (const int k : equations_.row_gradients(t)) evaluate(k);
     define(stage_value_[index(t)], row(t, where), where);
   }
+  std::vector<Expression> lengths;  // that coordinates are rounded with besides
   for (const int x : block.unknowns) {
     for (const int k : equations_.row_gradients(x)) evaluate(k);
     pending.solve.variables.push_back({stage_value_[index(x)].name(), {}, {}, {}});
-    pending.cold.push_back(lowering_.want(equations_.mechanics.variable(x), before(stage_)));
+    begin_with_state(pending, x);
     pending.next.push_back(lowering_.want(row(x, where), where));
+    if (x < n_) lengths.push_back(rounded_beside_[index(x)]);
   }
+  if (const auto length = common_length(equations_.mechanics, lengths))
+    pending.refined_beside = lowering_.want(*length, before(stage_));
   // What else depends on these unknowns is refined with them.
   std::set<std::string> own;
   for (const int v : block.unknowns) own.insert(equations_.stage(v).name());
@@ -365,11 +372,13 @@ Solve StepBuilder::finished(PendingSolve& pending) const {
   for (std::size_t j = 0; j < solve.variables.size(); ++j) {
     LoopVariable& variable = solve.variables[j];
     if (j < pending.cold.size()) variable.cold = lowering_.wanted(pending.cold[j]);
+    if (j < pending.beside.size()) variable.beside = lowering_.wanted(pending.beside[j]);
     if (j < pending.next.size()) variable.next = lowering_.wanted(pending.next[j]);
     if (j < pending.correction.size()) {
       variable.correction = lowering_.wanted(pending.correction[j]);
     }
   }
+  if (pending.refined_beside) solve.refined_beside = lowering_.wanted(*pending.refined_beside);
   for (const std::size_t handle : pending.gradient) {
     solve.gradient.push_back(lowering_.wanted(handle));
   }

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "generator/mechanics/cancelling_forces.hpp"
 #include "generator/program/linear_terms.hpp"
 #include "generator/program/lower.hpp"
 #include "generator/program/lowered_step.hpp"
@@ -19,7 +21,8 @@ namespace hamgen {
 struct PendingSolve {
   Solve solve;
   int stage = 0;
-  std::vector<std::size_t> cold, next, correction, residual, gradient;
+  std::vector<std::size_t> cold, beside, next, correction, residual, gradient;
+  std::optional<std::size_t> refined_beside = {};
   std::vector<std::vector<std::size_t>> matrix;
 };
 
@@ -209,6 +212,9 @@ class StepBuilder {
   void correct_solution(NewtonBlock& newton);
   void correct_gradient(int k, const Expression& change, int section);
 
+  void find_rounded_beside();
+  // Where the unknown x begins, and what it is rounded with.
+  void begin_with_state(PendingSolve& pending, int x);
   [[nodiscard]] Solve finished(PendingSolve& pending) const;
 
   const SolvePlan& plan_;
@@ -227,6 +233,7 @@ class StepBuilder {
   std::map<std::string, int> rests_;  // how many have been named, by what they belong to
   std::set<std::string> hessian_names_;
   std::vector<PendingSolve> solves_;
+  std::vector<Expression> rounded_beside_;  // see Note [forces that cancel]
   int stage_ = 0;
   bool solving_done_ = false;
   std::set<std::string> solved_;   // stage values of the blocks so far

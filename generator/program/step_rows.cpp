@@ -28,6 +28,21 @@ Expression StepBuilder::weight(int i, int k) const {
   return step_size() * equations_.stage_matrix.at({i, k});
 }
 
+void StepBuilder::find_rounded_beside() {
+  Mechanics of_energy = equations_.mechanics;
+  if (equations_.function) of_energy.gradient = equations_.energy_gradient;
+  rounded_beside_ = rounded_beside(of_energy, [this](int i, int k) {
+    return equations_.stage_matrix.contains({i, k}) ? weight(i, k) : Expression(0);
+  });
+}
+
+void StepBuilder::begin_with_state(PendingSolve& pending, int x) {
+  const Expression z = equations_.mechanics.variable(x);
+  const Expression& length = rounded_beside_[index(x)];
+  pending.cold.push_back(lowering_.want(z, before(stage_)));
+  pending.beside.push_back(lowering_.want(z + length, before(stage_)));
+}
+
 Expression StepBuilder::lacking(int i, const Expression& value, int section) {
   // The largest weights first.  The last of these differences cancels and has no error, and of a
   // small step none has.

@@ -42,8 +42,10 @@ class IterationWriter : public RuleWriter {
 
   void operator()(const Refine& refine) {
     const std::string kept = kept_name(refine);
-    add(Declare{fmt::format("Refinement<{}, {}>", refine.unknowns.size(), refine.gradient.size()),
+    add(Declare{refinement_type(static_cast<int>(refine.unknowns.size()),
+                                static_cast<int>(refine.gradient.size()), !refine.beside.is_zero()),
                 {refine.name}});
+    set_beside({refine.name}, refine.beside);
     if (!refine.kept.empty()) {
       add(Define{"Real", kept, list({}), true, {static_cast<int>(refine.kept.size())}});
     }
@@ -54,6 +56,7 @@ class IterationWriter : public RuleWriter {
   }
 
   void operator()(const RefineArray& refine) {
+    set_beside(refine.refinement, refine.beside);
     std::vector<Value> given = turn();
     if (!refine.rule.empty()) given.push_back(object({"start", refine.rule}));
     for (const Place& place : {refine.point, refine.lack, refine.gradient})
@@ -109,6 +112,12 @@ class IterationWriter : public RuleWriter {
   std::string rule_type_ = "NewtonRule";
 
  private:
+  // A length that all unknowns are rounded with besides.
+  void set_beside(Place refinement, const Expression& length) {
+    if (length.is_zero()) return;
+    refinement.field += refinement.field.empty() ? "beside" : ".beside";
+    set(at(refinement), formula(length));
+  }
   Value is_verdict(const std::string& name) const {
     const std::string verdict = (form_.references ? "Verdict::" : "") + name;
     return joined("==", {at({"verdict "}), with_parts(Value::Kind::constant, verdict, {})});
@@ -228,7 +237,7 @@ class IterationWriter : public RuleWriter {
         const Unknown& u = iterate.unknowns[j];
         const Value increment = element("increment ", j);
         add(Do{action("Distance", {"distance "}, "add",
-                      {call("magnitude", {increment}), length(u.symbol, u.start)})});
+                      {call("magnitude", {increment}), length(u.symbol, u.beside)})});
         // Nothing that the last one has computed is read behind the loop.
         form_.lanes ? move_lanes(at({iterate.name, "open"}), symbol(u.symbol), increment)
                     : set(symbol(u.symbol), increment, "+=");

@@ -19,8 +19,8 @@ class RuleWriter : public FailureWriter {
     std::vector<Value> moved, lengths, ways;
     for (const Unknown& u : unknowns) {
       moved.push_back(magnitude(u.correction));
-      lengths.push_back(length(u.symbol, u.start));
-      ways.push_back(u.by_torn ? way(u.symbol, u.start) : lengths.back());
+      lengths.push_back(length(u.symbol, u.beside));
+      ways.push_back(u.by_torn ? way(u.symbol, u.beside) : lengths.back());
     }
     const auto count = static_cast<int>(unknowns.size());
     add(count == 1 ? Define{"Real", "size ", moved[0]} : numbers("moved ", std::move(moved)));

@@ -22,6 +22,23 @@ std::vector<Scheme> the_list() {
   return list;
 }
 
+// What else schemes are called.
+struct OtherName {
+  std::string_view name, scheme;
+};
+constexpr OtherName kOtherNames[] = {{"verlet", "stormer-verlet"},
+                                     {"velocity-verlet", "stormer-verlet"},
+                                     {"leapfrog", "stormer-verlet"},
+                                     {"leap-frog", "stormer-verlet"},
+                                     {"kick-drift-kick", "stormer-verlet"},
+                                     {"kdk", "stormer-verlet"},
+                                     {"drift-kick-drift", "position-verlet"},
+                                     {"dkd", "position-verlet"},
+                                     {"midpoint", "implicit-midpoint"},
+                                     {"symplectic-euler", "symplectic-euler-a"},
+                                     {"runge-kutta", "rk4"},
+                                     {"runge-kutta-4", "rk4"}};
+
 }  // namespace
 
 std::span<const Scheme> all_schemes() {
@@ -34,12 +51,18 @@ const Scheme* find_scheme(std::string_view name) {
   return it == all_schemes().end() ? nullptr : &*it;
 }
 
+std::string scheme_meant_by(const std::string& name) {
+  const auto other = std::ranges::find(kOtherNames, name, &OtherName::name);
+  if (other != std::end(kOtherNames)) return std::string(other->scheme);
+  std::vector<std::string> names;
+  for (const Scheme& scheme : all_schemes()) names.push_back(scheme.name);
+  return nearest(name, names);
+}
+
 SchemeWish SchemeWish::read(const std::string& name) {
   if (name.empty()) return {};
   if (const Scheme* scheme = find_scheme(name)) return {scheme};
-  std::vector<std::string> names;
-  for (const Scheme& scheme : all_schemes()) names.push_back(scheme.name);
-  const std::string near = nearest(name, names);
+  const std::string near = scheme_meant_by(name);
   throw UsageError(fmt::format("unknown scheme '{}'{}; see `hamgen list schemes`", name,
                                near.empty() ? "" : ", did you mean '" + near + "'?"));
 }

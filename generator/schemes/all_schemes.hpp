@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "generator/mechanics/mechanics.hpp"
@@ -12,6 +13,8 @@ namespace hamgen {
 
 [[nodiscard]] std::span<const Scheme> all_schemes();
 [[nodiscard]] const Scheme* find_scheme(std::string_view name);
+// The name of the scheme that an unknown name may stand for, or "".
+[[nodiscard]] std::string scheme_meant_by(const std::string& name);
 
 // One of the list, or none.
 struct SchemeWish {

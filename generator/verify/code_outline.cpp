@@ -176,6 +176,7 @@ class Outline {
     list(refine.unknowns, refine.body);
     for (const std::string& name : refine.kept) word("kept " + local(name));
     read(refine.gradient);
+    read(refine.beside);
   }
   void operator()(const RefineArray& refine) {
     if (!refine.first.empty()) {
@@ -190,6 +191,7 @@ class Outline {
     whole("at", refine.point);
     whole("lack", refine.lack);
     whole("gradient", refine.gradient);
+    read(refine.beside);
     word("size", {refine.count, refine.components});
   }
   void operator()(const Sweep& sweep) {
@@ -300,7 +302,10 @@ class Outline {
     for (const Expression& operand : e.operands()) read(operand);
   }
   void list(const std::vector<Unknown>& unknowns, const Body& body) {
-    for (const Unknown& unknown : unknowns) read(unknown.start);
+    for (const Unknown& unknown : unknowns) {
+      read(unknown.start);
+      read(unknown.beside);
+    }
     for (const Unknown& unknown : unknowns) word("unknown " + local(unknown.symbol));
     run(body);
     for (const Unknown& unknown : unknowns) read(unknown.correction);

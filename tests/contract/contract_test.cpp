@@ -77,7 +77,9 @@ TEST(StepsInLanes, KeepTheContractByOtherMethods) {
        case_of("hard_beads", "shot", {.batch = 2}, 100),
        case_of("one_small", "slow", {.batch = 2}, 100),
        case_of("row", "two", {.scheme = "kahan-li-8b", .batch = 2}, 150),
-       case_of("next_to_rounding", "still", {.scheme = "gauss-4", .batch = 2}, 20)});
+       case_of("next_to_rounding", "still", {.scheme = "gauss-4", .batch = 2}, 20),
+       case_of("two_near_rest", "small", {.batch = 2}, 100),
+       case_of("ring_near_rest", "tiny", {.scheme = "gauss-4", .batch = 2}, 20)});
 }
 TEST(StepsInLanes, KeepTheContractOfQuietUnknownsBesideLoudOnes) {
   expect_kept_in_lanes({case_of("free_wall", "harder", {.batch = 2}, 400),

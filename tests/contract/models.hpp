@@ -103,6 +103,41 @@ momentum u, v
 H = (u^2 + v^2)/2 + x^4/4 + 20*(1 - cos(y)) + x^2*y^2/10
 scene small { x = 1; y = 1e-8; u = 0.3; v = 1e-8; h = 0.1; steps = 200 }
 )"},
+    // Forces that are what terms of another size leave: see Note [forces that cancel] in
+    // mechanics/cancelling_forces.hpp.
+    SteepModel{"near_rest", R"(coordinate q
+momentum p
+H = p^2/2 + exp(q) - q
+scene small { q = 1e-9; h = 0.1; steps = 300 }
+scene tiny { q = 1e-14; h = 0.1; steps = 100 }
+)"},
+    SteepModel{"two_near_rest", R"(coordinate x, y
+momentum u, v
+parameter k = 3
+H = u^2/2 + 5*v^2 + k*(1 - exp(-x))^2 + exp(30*(x - y)) - 30*(x - y) + y^2
+scene small { x = 1e-9; v = 1e-7; h = 0.02; steps = 150 }
+)"},
+    // And beside such a force one whose terms all vanish.
+    SteepModel{"beside_near_rest", R"(coordinate x, y
+momentum u, v
+H = u^2/2 + v^2/2 + exp(x) - x + 5*y^2 + y^4
+scene small { x = 1e-9; u = 1e-9; y = 1e-12; v = 1e-12; h = 0.2; steps = 100 }
+)"},
+    SteepModel{"array_beside_near_rest", R"(size N = 24
+coordinate q[1..N] periodic
+coordinate x[1..N]
+momentum p[1..N]
+momentum u[1..N]
+H = sum(i = 1..N, p[i]^2/2 + exp(q[i] - q[i+1])) + sum(i = 1..N, u[i]^2/2 + 5*x[i]^2 + x[i]^4)
+scene loud { q[i] = 1e-3*sin(i^2); p[i] = 1e-3*cos(3*i^2); x[i] = 1e-12*sin(i^2); u[i] = 1e-12*cos(3*i^2); h = 0.2; steps = 30 }
+)"},
+    SteepModel{"ring_near_rest", R"(size N = 32
+coordinate q[1..N] periodic
+momentum p[1..N]
+H = sum(i = 1..N, p[i]^2/2 + exp(q[i] - q[i+1]))
+scene waves { q[i] = 1e-9*sin(i^2); p[i] = 1e-9*cos(3*i^2); h = 0.05; steps = 60 }
+scene tiny { q[i] = 1e-13*sin(i^2); p[i] = 1e-13*cos(3*i^2); h = 0.2; steps = 30 }
+)"},
     // Beads in a row, of which the first one is thrown at the others.
     SteepModel{"row", R"(coordinate q1, q2, q3, q4
 momentum p1, p2, p3, p4

@@ -10,12 +10,13 @@
 //   r_i = eps (|Y_i| + 2^-40 max |Y_i|) + w |h J (g(Y_i) - grad H(Y_i))|,
 // g the gradient in these numbers: no algorithm does better than to round its own solution and to
 // evaluate H's gradient as it is emitted.  (The maximum: quad rounds the
-// largest to a 2^-113th, and what is judged by it must be a million times as much.  Y_i lies
-// between two numbers, and g(Y_i) is the worse of the two there: where g is a single product, its
-// error at one of them may vanish by chance.  w is 1, and for a member what I/2 + C has beside its
-// diagonal besides: the parts of h J g that a row of another component takes.)  Then, A = I - h (a
-// J H''(Y_j)) the matrix of the equations, the stages err by |A^-1| r, and so does Z but for
-// rounding it, as h J H'' dY = a^-1 (dY - r):
+// largest to a 2^-113th, and what is judged by it must be a million times as much.  The error of
+// g(Y_i) at one point may vanish by chance: it is the worst of those at Y_i and at a 32nd of the
+// step Z - z to either side, which is far where terms of g cancel and near where it is steep, and
+// of the two numbers between which each of these lies.  w is 1, and for a member what I/2 + C has
+// beside its diagonal besides: the parts of h J g that a row of another component takes.)  Then, A
+// = I - h (a J H''(Y_j)) the matrix of the equations, the stages err by |A^-1| r, and so does Z but
+// for rounding it, as h J H'' dY = a^-1 (dY - r):
 //   member:  dZ = (I/2 + C)^-1 dY, for the midpoint rule twice dY;
 //   stages:  dZ = b^T a^-1 dY, each stage with its weight d = |b^T a^-1| (HLW IV.8).
 // A step keeps the contract if in every component
@@ -26,9 +27,9 @@
 //
 // A method without equations is a product of explicit steps: the rounded one is the exact one from
 // a state within rounding,
-//   |Z - Z_quad| <= 16 (|dZ/dz| (eps |z| + 2^-10 eps max |z| + |h J (g(z) - grad H(z))|) + eps
-//   |Z|),
-// where the maximum stands for the gradient's errors between z and Z.
+//   |Z - Z_quad| <= 16 (|dZ/dz| (eps |z| + 2^-10 eps max |z| + |h J (g - grad H)|) + eps |Z|),
+// where the gradient's error is the worst of five points from z to Z, and the maximum stands for
+// those between them.
 //
 // Z_quad is the step in quad by the same code, and not believed: the residual of the equations as
 // above is evaluated at it, with H's gradient in quad and no part of the solver, and A^-1 times it,
@@ -37,6 +38,7 @@
 #pragma once
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <vector>
@@ -181,6 +183,23 @@ class Watch {
     }
     return result;
   }
+  // The worst of it at y + part way.
+  Vector gradient_error(const Vector& y, const Vector& way, std::initializer_list<double> parts,
+                        Quad h) const {
+    Vector result(y.size());
+    for (const double part : parts) {
+      Vector point = y;
+      for (std::size_t k = 0; k < y.size(); ++k) point[k] += part * way[k];
+      const Vector error = gradient_error(point, field(point), h);
+      for (std::size_t k = 0; k < y.size(); ++k) result[k] = larger(result[k], error[k]);
+    }
+    return result;
+  }
+  static Vector way(const Vector& z, const Vector& Z) {
+    Vector result = Z;
+    for (std::size_t k = 0; k < z.size(); ++k) result[k] -= z[k];
+    return result;
+  }
 
   // Column by column, by central differences, good to 20 digits and more: a dozen would do.
   template <class Map>
@@ -203,7 +222,7 @@ class Watch {
     const Matrix slope =
         jacobian(z, [&](const Vector& start) { return exact_.step(start, h).end; });
     const Vector rounded = rounding(z, 1.0 / 1024);
-    const Vector error = gradient_error(z, field(z), h);
+    const Vector error = gradient_error(z, way(z, Z), {0, 0.25, 0.5, 0.75, 1}, h);
     Vector bound;
     for (std::size_t k = 0; k < z.size(); ++k) {
       Quad sum = rounding(Z[k]);
@@ -240,9 +259,10 @@ class Watch {
   }
 
   // r of stage j.
-  Vector residual_of_rounding(const Equations& e, const Vector& y, const Vector& f, Quad h) const {
+  Vector residual_of_rounding(const Equations& e, const Vector& y, const Vector& way,
+                              Quad h) const {
     Vector r = rounding(y, 0x1p-40);
-    const Vector error = gradient_error(y, f, h);
+    const Vector error = gradient_error(y, way, {0, -1.0 / 32, 1.0 / 32}, h);
     for (std::size_t k = 0; k < y.size(); ++k) {
       r[k] += error[k];
       for (std::size_t l = 0; l < e.c.size(); ++l) {
@@ -268,7 +288,7 @@ class Watch {
     }
     for (std::size_t j = 0; j < s; ++j) {
       const Vector f = field(y[j]);
-      const Vector rounding_of_stage = residual_of_rounding(e, y[j], f, h);
+      const Vector rounding_of_stage = residual_of_rounding(e, y[j], way(z, exact.end), h);
       r.insert(r.end(), rounding_of_stage.begin(), rounding_of_stage.end());
       for (std::size_t i = 0; i < s; ++i) {
         for (std::size_t k = 0; k < size; ++k) lack[i][k] -= h * coupled(e, i, j, k, f);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "generator/base/source_text.hpp"
+#include "generator/choose_sums.hpp"
 #include "tests/planner/emitted_text.hpp"
 #include "tests/specialise/specialised_request.hpp"
 
@@ -73,6 +74,14 @@ TEST(Sums, TheStateOfLoopsSaysWhoseElementsStandWhere) {
   const std::string header = emit(shipped("outer_solar_system"), {})[0].text;
   EXPECT_TRUE(contains(header, "  Real q[18] = {};  // x[0..5], y[0..5], z[0..5]\n"));
   EXPECT_TRUE(contains(header, "  Real p[18] = {};  // px[0..5], py[0..5], pz[0..5]\n"));
+}
+
+TEST(Sums, InFunctionsAreWrittenOutForWhatHasAllSecondDerivatives) {
+  EXPECT_EQ(wish_for_all_second_derivatives({}), "");
+  EXPECT_EQ(wish_for_all_second_derivatives({.solver = "fixed-point"}), "");
+  EXPECT_EQ(wish_for_all_second_derivatives({.tangent = true}), "the tangent map");
+  EXPECT_EQ(wish_for_all_second_derivatives({.order = 4}), "a step of higher order");
+  EXPECT_EQ(wish_for_all_second_derivatives({.solver = "newton"}), "Newton's method");
 }
 
 }  // namespace

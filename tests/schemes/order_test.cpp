@@ -167,5 +167,15 @@ TEST(Gauss, HasTheTabulatedNodesAndWeights) {
   EXPECT_NEAR(to_double(numeric_value(tableau.b[0])), 0.101228536290376 / 2, 1e-15);
 }
 
+TEST(SchemeNames, ThatOthersUseAreThoseOfSchemes) {
+  EXPECT_EQ(scheme_meant_by("leapfrog"), "stormer-verlet");
+  EXPECT_EQ(scheme_meant_by("drift-kick-drift"), "position-verlet");
+  EXPECT_EQ(scheme_meant_by("yoshida4"), "yoshida-4");
+  EXPECT_EQ(scheme_meant_by("something else"), "");
+  for (const char* name : {"verlet", "velocity-verlet", "leap-frog", "kick-drift-kick", "kdk",
+                           "dkd", "midpoint", "symplectic-euler", "runge-kutta", "runge-kutta-4"})
+    EXPECT_NE(find_scheme(scheme_meant_by(name)), nullptr) << name;
+}
+
 }  // namespace
 }  // namespace hamgen::schemes_test
