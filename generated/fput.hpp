@@ -1399,9 +1399,9 @@ void forget(History<Unknowns>& history) {
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x461a64b2
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xf38740e4
 namespace fput::implicit_midpoint {
-inline namespace emitted_461a64b2 {
+inline namespace emitted_f38740e4 {
 
 namespace numerics = ::hamgen_fef46be6::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
@@ -1437,7 +1437,7 @@ struct Start {
   Real value[32] = {};   // the coordinates of zbar
   bool known = false;    // else the state itself is the start
   Real slope[64] = {};   // grad H(zbar), dH/dq first
-  Real lack[32] = {};    // of the equations at zbar, then the increment
+  Real lack[32] = {};    // of the equations, then the increment
   Real change[32] = {};  // of the slope by the last increment
   Matrix matrix;
   WaitingNewtonRule<2, 32> newton_rule;
@@ -1748,9 +1748,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_461a64b2
+}  // namespace emitted_f38740e4
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x461a64b2
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xf38740e4
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -75,9 +75,13 @@ class AtZero {
   explicit AtZero(const Mechanics& mechanics) {
     for (const Quantity& parameter : mechanics.parameters)
       values_.emplace(parameter.name, parameter.value);
+    close_by_ = values_;
   }
   void add(const std::string& variable) {
     values_.emplace(variable, Rational(0));
+    // Differences of variables change as well.
+    const auto number = static_cast<long>(zero_.size() + 1);
+    close_by_.emplace(variable, Rational(number) / Rational(Integer(1) << 60));
     zero_.emplace(variable, Expression(0));
   }
   [[nodiscard]] std::optional<Rational> value(const Expression& e) const {
@@ -86,6 +90,13 @@ class AtZero {
   // In the parameters, with a power of two for what is a number: only its size counts.
   [[nodiscard]] Expression size(const Expression& e) const {
     return size_of(folded(substitute(e, zero_)));
+  }
+  // Does a 2^-60th away from zero an expression differ by more than a 2^-80th of itself?
+  [[nodiscard]] bool has_slope(const Expression& e) const {
+    const std::optional<Rational> here = value(e);
+    const std::optional<Rational> there = evaluate(e, close_by_);
+    if (!here || !there) return false;
+    return abs(*there - *here) > abs(*here) / Rational(Integer(1) << 80);
   }
   [[nodiscard]] bool depends(const Expression& e) const {
     return std::ranges::any_of(symbols(e), [&](const auto& name) { return zero_.contains(name); });
@@ -103,7 +114,7 @@ class AtZero {
     return with_operands(e, std::move(operands));
   }
 
-  Values values_;
+  Values values_, close_by_;
   Substitution zero_;
 };
 
@@ -120,6 +131,7 @@ Expression rounded_up(const Expression& e) {
 struct TermsAtZero {
   std::vector<Expression> terms;
   Rational total = 0, all = 0;  // what they come to together, and their sizes do
+  bool have_slope = false;      // does one of them change with the state there?
 
   // False where they have no values there, or are too many.
   bool add(const Expression& force, const AtZero& zero) {
@@ -132,11 +144,12 @@ struct TermsAtZero {
       if (*value == 0) continue;
       total += *value;
       all += abs(*value);
+      have_slope = have_slope || zero.has_slope(term);
       terms.push_back(std::move(term));
     }
     return true;
   }
-  [[nodiscard]] bool cancel() const { return all != 0 && abs(total) * 1'000'000'000'000 <= all; }
+  [[nodiscard]] bool cancel() const { return have_slope && abs(total) * 1'000'000'000'000 <= all; }
 };
 
 // Of the forces on all elements, to be had in one pass.
@@ -193,10 +206,9 @@ std::map<int, CancellingForce> cancelling_forces(const Mechanics& mechanics) {
     if (!zero.depends(force)) continue;
     TermsAtZero terms;
     if (!terms.add(force, zero) || !terms.cancel()) continue;
-    found.emplace(
-        k,
-        CancellingForce{sum_of_sizes(terms.terms, zero),
-                        rounded_up(slope_at_zero(derivative(force, mechanics.variable(k)), zero))});
+    const Expression slope = slope_at_zero(derivative(force, mechanics.variable(k)), zero);
+    if (slope.is_zero()) continue;
+    found.emplace(k, CancellingForce{sum_of_sizes(terms.terms, zero), rounded_up(slope)});
   }
   return found;
 }
@@ -219,8 +231,17 @@ std::optional<CancellingForce> cancelling_force_in_loops(const Mechanics& mechan
     }
   }
   if (!terms.cancel() || !sizes.are_alike(terms.all)) return {};
-  return CancellingForce{sum_of_sizes(terms.terms, zero),
-                         rounded_up(Expression::sum(std::move(slopes)))};
+  const Expression slope = Expression::sum(std::move(slopes));
+  if (slope.is_zero()) return {};
+  return CancellingForce{sum_of_sizes(terms.terms, zero), rounded_up(slope)};
+}
+
+Expression CancellingForce::reach() const {
+  return Expression::power(slope * Expression(2) / terms, Expression(2));
+}
+
+Expression nearness(const Expression& far) {
+  return Expression(1) / (Expression(1) + Expression::power(far, Expression(8)));
 }
 
 Expression rounded_beside(const CancellingForce& force, const Expression& answer) {
@@ -233,6 +254,8 @@ std::optional<Expression> common_length(const Mechanics& mechanics,
   Values values{{"h", Rational(1, 64)}};
   for (const Quantity& parameter : mechanics.parameters)
     values.emplace(parameter.name, parameter.value);
+  for (int i = 0; i < 2 * mechanics.degrees_of_freedom; ++i)
+    values.emplace(mechanics.variable(i).name(), Rational(0));
   std::optional<Rational> least, most;
   for (const Expression& length : lengths) {
     const std::optional<Rational> value = evaluate(length, values);
@@ -279,13 +302,18 @@ std::vector<Expression> rounded_beside(const Mechanics& mechanics, const WeightO
     }
     return Expression::sum(std::move(parts));
   };
+  std::vector<Expression> squares;
+  for (int i = 0; i < mechanics.degrees_of_freedom - (mechanics.has_time ? 1 : 0); ++i)
+    squares.push_back(Expression::power(mechanics.variable(i), Expression(2)));
+  const Expression far = Expression::sum(std::move(squares));
   for (const auto& [k, force] : forces) {
     const Expression own = answer(k, k);
+    const Expression near = nearness(far * force.reach());
     for (int i = 0; i < size; ++i) {
       const Expression moved = answer(i, k);
       if (moved.is_zero()) continue;
       result[static_cast<std::size_t>(i)] +=
-          moved * force.terms / (Expression(1) + own * force.slope);
+          near * moved * force.terms / (Expression(1) + own * force.slope);
     }
   }
   return result;

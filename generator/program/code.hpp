@@ -206,6 +206,7 @@ struct IterateArray {
 // That Newton has, once a fixed point was slow, before it is tried again.
 inline constexpr int kStepsOfNewton = 32;
 // What is said where it is emitted.
+inline constexpr const char* kNearRemark = "1 where forces cancel, 0 far from there";
 inline constexpr const char* kRefinementRemark =
     "What the equations lack at the rounded unknowns is solved for, too.";
 // Of so many unknowns and components of the gradient; does it round with a length besides?

@@ -77,12 +77,12 @@ class LoopMember : LoopStage {
                               .type = "bool"});
     }
     if (!beside_.empty()) array("beside", unknowns(), "what they are rounded with as well");
+    if (!beside_.empty()) start.fields.push_back({.name = "near", .remark = kNearRemark});
     if (both() && !arrays_.reduced)
       array("expected", unknowns(), "what the fixed point began with");
     if (arrays_.reduced && !velocity_) array("momentum", n_, "of zbar");
     array("slope", 2 * n_, raised() ? "grad K(zbar), dK/dq first" : "grad H(zbar), dH/dq first");
-    if (iterates(arrays_))
-      array("lack", unknowns(), "of the equations at zbar, then the increment");
+    if (iterates(arrays_)) array("lack", unknowns(), "of the equations, then the increment");
     if (is_linear()) {
       array("lost", 2 * n_, "of the slope by rounding");
       array("moved", 2 * n_, "from the rounded stage to the solution");

@@ -74,7 +74,8 @@ void LoopStage::find_rounded_beside() {
   if (!force || !mass) return;
   const Expression of_q = rounded_beside(*force, scale_of(weights_, *mass));
   if (of_q.is_zero()) return;
-  beside_ = {{"beside_q", of_q, "what forces that cancel round q with"}};
+  beside_ = {{"beside_q", of_q, "what forces that cancel round q with"},
+             {"reach", force->reach(), "where that is: 1/q^2"}};
   if (arrays_.reduced) return;
   // They move q by way of h dH/dp.
   const Expression of_p = Expression::apply("abs", {of_q * Expression(2) / (*mass * step_size())});
@@ -83,10 +84,15 @@ void LoopStage::find_rounded_beside() {
 
 void LoopStage::add_rounded_beside(RoutineBuilder& b) const {
   if (beside_.empty()) return;
+  const Expression q = state(b, "z", "q");
+  b.body().push_back({Assign{near(b).name(), 0}});
+  b.body().push_back(for_each(elements(), {{Accumulate{near(b).name(), q * q}}}));
+  b.body().push_back({Assign{near(b).name(), nearness(near(b) * b.at("k", "reach"))}});
   Body each;
-  for (std::size_t half = 0; half < beside_.size(); ++half) {
-    const Expression z = state(b, "z", half == 0 ? "q" : "p");
-    each.push_back({Assign{rounded_with(b, half == 1).name(), z + b.at("k", beside_[half].name)}});
+  each.push_back({Assign{rounded_with(b, false).name(), q + refined_beside(b)}});
+  if (!arrays_.reduced) {
+    const Expression of_p = b.at("k", "beside_p") * near(b);
+    each.push_back({Assign{rounded_with(b, true).name(), state(b, "z", "p") + of_p}});
   }
   b.body().push_back(for_each(elements(), std::move(each)));
 }
@@ -97,7 +103,7 @@ Expression LoopStage::rounded_with(RoutineBuilder& b, bool momentum) const {
 }
 
 Expression LoopStage::refined_beside(RoutineBuilder& b) const {
-  return beside_.empty() ? Expression(0) : b.at("k", beside_.front().name);
+  return beside_.empty() ? Expression(0) : b.at("k", "beside_q") * near(b);
 }
 
 Expression LoopStage::lack(RoutineBuilder& b, bool momentum) const {

@@ -115,6 +115,8 @@ class LoopStage {
   void add_rounded_beside(RoutineBuilder& b) const;
   [[nodiscard]] Expression rounded_with(RoutineBuilder& b, bool momentum) const;
   [[nodiscard]] Expression refined_beside(RoutineBuilder& b) const;
+  // Of these lengths, see nearness().
+  static Expression near(RoutineBuilder& b) { return b.at("start", "near"); }
   [[nodiscard]] bool rounds_beside() const { return !beside_.empty(); }
   // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.
   void add_stage(RoutineBuilder& b, Body& each) const;

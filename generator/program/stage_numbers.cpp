@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "generator/mechanics/cancelling_forces.hpp"
 #include "generator/program/arithmetic.hpp"
 #include "generator/program/linear_terms.hpp"
 #include "generator/program/routine_builder.hpp"
-#include "generator/solvers/array_matrix.hpp"
+#include "generator/program/stage_rounding.hpp"
 
 namespace hamgen {
 
@@ -88,6 +87,7 @@ class StageNumbers {
     if (order_) add_second_order();
     if (beside_) {
       b_.body().push_back({Assign{b_.at("k", "beside").name(), beside_->q}});
+      b_.body().push_back({Assign{b_.at("k", "reach").name(), beside_->reach}});
       if (!beside_->p.is_zero())
         b_.body().push_back({Assign{b_.at("k", "beside_p").name(), beside_->p}});
     }
@@ -163,6 +163,7 @@ class StageNumbers {
     if (beside_) {
       list.push_back({.name = "beside", .remark = "what forces that cancel round q with"});
       if (!beside_->p.is_zero()) list.push_back({.name = "beside_p", .remark = "and p"});
+      list.push_back({.name = "reach", .remark = "where that is: 1/q^2"});
     }
     if (!order_) return list;
     list.push_back({.name = "twice", .sizes = square, .remark = "[j][i]: h sum_m a_im a_mj / b_j"});
@@ -220,37 +221,6 @@ class StageNumbers {
 };
 
 }  // namespace
-
-std::optional<StageRounding> stages_rounded_beside(const LoweredStep& lowered) {
-  const Mechanics& mechanics = lowered.plan.equations.mechanics;
-  const Expression quarter = step_size() * step_size() * Expression(Rational(1, 4));
-  std::optional<Expression> mobility;
-  std::vector<Expression> lengths;
-  if (mechanics.keeps_sums()) {
-    const std::optional<CancellingForce> force = cancelling_force_in_loops(mechanics);
-    if (!force || !second_order_of(mechanics)) return {};
-    mobility = uniform_mass(mechanics);
-    if (mobility) lengths.push_back(rounded_beside(*force, *mobility * quarter));
-  } else {
-    const std::map<int, CancellingForce> forces = cancelling_forces(mechanics);
-    const std::optional<SecondOrder> order =
-        forces.empty() ? std::nullopt : second_order_of(mechanics);
-    if (!order) return {};
-    mobility = order->mobility[0];
-    for (int i = 0; i < mechanics.degrees_of_freedom; ++i) {
-      const auto force = forces.find(i);
-      if (force == forces.end()) return {};
-      const Expression& of_i = order->mobility[static_cast<std::size_t>(i)];
-      lengths.push_back(rounded_beside(force->second, of_i * quarter));
-    }
-  }
-  const std::optional<Expression> of_q = common_length(mechanics, lengths);
-  if (!of_q) return {};
-  if (lowered.second_order) return StageRounding{*of_q, 0};
-  // They move q by way of h dH/dp.
-  const Expression of_p = *of_q * Expression(2) / (*mobility * step_size());
-  return StageRounding{*of_q, Expression::apply("abs", {of_p})};
-}
 
 Coefficients stage_coefficients(const Environment& environment, const LoweredStep& lowered) {
   return StageNumbers(environment, lowered).build();

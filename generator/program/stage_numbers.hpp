@@ -19,13 +19,4 @@ namespace hamgen {
 // By component tables are [j][i], and 0 for what is no stage.
 [[nodiscard]] Coefficients stage_coefficients(const Environment& environment,
                                               const LoweredStep& lowered);
-// What forces that cancel round coordinates with, and momenta where these are unknowns, else 0: see
-// Note [forces that cancel].
-//   k.beside, k.beside_p
-struct StageRounding {
-  Expression q, p;
-};
-// None where there are no such forces, or where H is not p^2/2m + V(q).
-[[nodiscard]] std::optional<StageRounding> stages_rounded_beside(const LoweredStep& lowered);
-
 }  // namespace hamgen

@@ -1,11 +1,10 @@
 #include "generator/program/stage_routines.hpp"
 
-#include <fmt/format.h>
-
 #include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/stage_coordinates.hpp"
 #include "generator/program/stage_matrix.hpp"
 #include "generator/program/stage_numbers.hpp"
+#include "generator/program/stage_rounding.hpp"
 
 namespace hamgen {
 
@@ -70,7 +69,11 @@ class StageRoutines : StageParts {
     } else {
       array("state", dimension_, "z as an array");
     }
-    if (beside_) array("beside", states(), "what they are rounded with as well");
+    if (beside_) {
+      array("beside", states(), "what they are rounded with as well");
+      record.fields.push_back(
+          {.name = "near", .remark = "1 where forces cancel, 0 far from there"});
+    }
     array("small", dimension_, "the carry");
     array("value", unknowns(), "Y_i");
     array("slope", unknowns(), "L_i = h b_i f(Y_i)");
@@ -211,16 +214,6 @@ class StageRoutines : StageParts {
   // Of these arrays: of coordinates, then of momenta where these are unknowns.
   [[nodiscard]] int states() const { return by_component() ? iterated() : dimension_; }
   [[nodiscard]] const char* rounded() const { return beside_ ? "beside" : "state"; }
-  void add_beside(RoutineBuilder& b) const {
-    const int half = coordinates_ ? states() : states() / 2;
-    const auto add = [&](int first, const char* length) {
-      const auto at = [&](const char* array) { return of_start(b, array, affine("j", first)); };
-      Body each{{Assign{at("beside").name(), at("state") + b.at("k", length)}}};
-      b.body().push_back(for_each(counting("j", half), std::move(each)));
-    };
-    add(0, "beside");
-    if (!coordinates_) add(half, "beside_p");
-  }
 
   // The stages of the polynomial through those of the last step, or the state.
   void add_start_values(RoutineBuilder& b) const {
@@ -229,7 +222,10 @@ class StageRoutines : StageParts {
     } else {
       read_state(b, b.body(), environment_, "z", {"start", "state"}, is_array());
     }
-    if (beside_) add_beside(b);
+    if (beside_) {
+      const int count = coordinates_ ? states() : states() / 2;
+      add_rounding(b, *beside_, count, by_component() ? layout_.room() : 1);
+    }
     read_state(b, b.body(), environment_, "carry", {"start", "small"}, is_array());
     const Place known{"start", "known"};
     Body ahead;
@@ -313,7 +309,7 @@ class StageRoutines : StageParts {
                        .gradient = {"start", "slope"},
                        .count = iterated(),
                        .components = unknowns()};
-    if (beside_) refine.beside = b.at("k", "beside");
+    if (beside_) refine.beside = b.at("k", "beside") * b.at("start", "near");
     refine.steps = solver_ == StageSolver::both ? kStepsOfNewton : 0;
     if (refine.steps > 0) refine.patience = {"start", "patience"};
     const auto contract = [&](Body& body) {

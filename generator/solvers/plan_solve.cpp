@@ -60,43 +60,44 @@ std::vector<int> needed_stages(const StepEquations& equations) {
   return result;
 }
 
-// Is dH/dz_k a polynomial in the stage values in the set, and d2H/dz_k dz_j free of them?
-bool is_free_of(const StepEquations& equations, int k, int j, const std::vector<int>& variables) {
-  const std::set<std::string> present = symbols(equations.mechanics.second_derivative(k, j));
-  return std::ranges::none_of(variables, [&](int v) {
-    return present.contains(name_of(equations, v)) || !equations.is_polynomial(k, v);
+// Are dH/dz_k polynomials in these variables, and d2H/dz_k dz_j free of them, k in the rows of all
+// i and j any of these?
+bool are_free_of(const StepEquations& equations, const std::vector<int>& block,
+                 const std::vector<int>& variables) {
+  std::set<std::string> names;
+  for (const int v : variables) names.insert(name_of(equations, v));
+  const auto is_one = [&](const std::string& name) { return names.contains(name); };
+  std::set<int> gradients;
+  for (const int i : block) {
+    for (const int k : equations.row_gradients(i)) gradients.insert(k);
+  }
+  return std::ranges::all_of(gradients, [&](int k) {
+    if (std::ranges::any_of(equations.non_polynomial[static_cast<std::size_t>(k)], is_one))
+      return false;
+    return std::ranges::all_of(block, [&](int j) {
+      const Expression entry = equations.mechanics.second_derivative(k, j);
+      return entry.is_zero() || std::ranges::none_of(symbols(entry), is_one);
+    });
   });
 }
 
 // Is row i affine in zbar_j, alone?
 bool is_affine_in(const StepEquations& equations, int i, int j) {
-  return std::ranges::all_of(equations.row_gradients(i),
-                             [&](int k) { return is_free_of(equations, k, j, {j}); });
+  return std::ranges::all_of(equations.row_gradients(i), [&](int k) {
+    return equations.is_polynomial(k, j) &&
+           !symbols(equations.mechanics.second_derivative(k, j)).contains(name_of(equations, j));
+  });
 }
 
 // Are the block's rows affine in all the block's stage values?
 bool is_affine(const StepEquations& equations, const std::vector<int>& block) {
-  for (const int i : block) {
-    for (const int k : equations.row_gradients(i)) {
-      for (const int j : block) {
-        if (!is_free_of(equations, k, j, block)) return false;
-      }
-    }
-  }
-  return true;
+  return are_free_of(equations, block, block);
 }
 
 bool has_constant_matrix(const StepEquations& equations, const std::vector<int>& block) {
   std::vector<int> all;
   for (int i = 0; i < 2 * equations.mechanics.degrees_of_freedom; ++i) all.push_back(i);
-  for (const int i : block) {
-    for (const int k : equations.row_gradients(i)) {
-      for (const int j : block) {
-        if (!is_free_of(equations, k, j, all)) return false;
-      }
-    }
-  }
-  return true;
+  return are_free_of(equations, block, all);
 }
 
 // One unknown, its row a polynomial of degree two in it: the third derivative vanishes, that is the

@@ -123,6 +123,12 @@ momentum u, v
 H = u^2/2 + v^2/2 + exp(x) - x + 5*y^2 + y^4
 scene small { x = 1e-9; u = 1e-9; y = 1e-12; v = 1e-12; h = 0.2; steps = 100 }
 )"},
+    // And where the terms are gone, the state being far from that equilibrium.
+    SteepModel{"far_from_rest", R"(coordinate x, y, z
+momentum u, v, w
+H = (u^2 + v^2 + w^2)/2 + exp(x - y) + exp(y - z) + y^2/2 + y^4/4
+scene far { x = -60; z = 60; y = 1e-12; v = 3e-13; h = 0.1; steps = 20 }
+)"},
     SteepModel{"array_beside_near_rest", R"(size N = 24
 coordinate q[1..N] periodic
 coordinate x[1..N]
