@@ -254,8 +254,12 @@ std::optional<Expression> common_length(const Mechanics& mechanics,
   Values values{{"h", Rational(1, 64)}};
   for (const Quantity& parameter : mechanics.parameters)
     values.emplace(parameter.name, parameter.value);
-  for (int i = 0; i < 2 * mechanics.degrees_of_freedom; ++i)
-    values.emplace(mechanics.variable(i).name(), Rational(0));
+  // What else they are made of is the state.
+  for (const Expression& length : lengths) {
+    for (const std::string& name : symbols(length)) {
+      if (name != "pi") values.emplace(name, Rational(0));
+    }
+  }
   std::optional<Rational> least, most;
   for (const Expression& length : lengths) {
     const std::optional<Rational> value = evaluate(length, values);

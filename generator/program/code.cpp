@@ -266,12 +266,6 @@ std::vector<Body*> inner_bodies(Instruction& instruction) {
   return bodies;
 }
 
-std::string refinement_type(int unknowns, int components, bool rounds_beside) {
-  const char* const besides = rounds_beside ? ", true" : "";
-  return "Refinement<" + std::to_string(unknowns) + ", " + std::to_string(components) + besides +
-         ">";
-}
-
 std::string find_in(const Body& body, const std::function<std::string(const Instruction&)>& look) {
   for (const Instruction& instruction : body) {
     std::string found = look(instruction);

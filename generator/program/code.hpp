@@ -206,11 +206,8 @@ struct IterateArray {
 // That Newton has, once a fixed point was slow, before it is tried again.
 inline constexpr int kStepsOfNewton = 32;
 // What is said where it is emitted.
-inline constexpr const char* kNearRemark = "1 where forces cancel, 0 far from there";
 inline constexpr const char* kRefinementRemark =
     "What the equations lack at the rounded unknowns is solved for, too.";
-// Of so many unknowns and components of the gradient; does it round with a length besides?
-[[nodiscard]] std::string refinement_type(int unknowns, int components, bool rounds_beside);
 // What a fixed point lacks below the last place of its unknowns: see numerics/refinement.hpp.  The
 // values of the body stay those at the unknowns; element j of the object's `change` is what the
 // component `gradient` j lacks there.

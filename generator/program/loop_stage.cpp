@@ -70,8 +70,9 @@ void LoopStage::find_rounded_beside() {
   const Mechanics of_energy = plan_.equations.of_energy();
   if (!of_energy.is_separable() || !has_diagonal_kinetic_energy(of_energy)) return;
   const std::optional<CancellingForce> force = cancelling_force_in_loops(of_energy);
+  if (!force) return;
   const std::optional<Expression> mass = uniform_mass(of_energy);
-  if (!force || !mass) return;
+  if (!mass) return;
   const Expression of_q = rounded_beside(*force, scale_of(weights_, *mass));
   if (of_q.is_zero()) return;
   beside_ = {{"beside_q", of_q, "what forces that cancel round q with"},

@@ -10,6 +10,7 @@
 #include "generator/program/local_velocity.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/program.hpp"
+#include "generator/program/refinement_type.hpp"
 #include "generator/program/routine_builder.hpp"
 #include "generator/program/step_weights.hpp"
 

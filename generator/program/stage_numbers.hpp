@@ -19,4 +19,5 @@ namespace hamgen {
 // By component tables are [j][i], and 0 for what is no stage.
 [[nodiscard]] Coefficients stage_coefficients(const Environment& environment,
                                               const LoweredStep& lowered);
+
 }  // namespace hamgen

@@ -1,5 +1,6 @@
 #include "generator/program/stage_routines.hpp"
 
+#include "generator/program/refinement_type.hpp"
 #include "generator/program/runge_kutta_routine.hpp"
 #include "generator/program/stage_coordinates.hpp"
 #include "generator/program/stage_matrix.hpp"

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "generator/program/refinement_type.hpp"
 #include "generator/program/written_rules.hpp"
 
 namespace hamgen::written {
