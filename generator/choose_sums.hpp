@@ -27,7 +27,7 @@ namespace hamgen {
 [[nodiscard]] std::string wish_for_all_second_derivatives(const Request& request);
 
 // The system, in loops where that is wanted.  A function of sums is written out where more is asked
-// for than its gradient.
+// for than its gradient, and one variable that all others have to do with where a higher order is.
 [[nodiscard]] Mechanics derive_for(const Request& request, const Model& model, bool keep_sums,
                                    int most = kMostWrittenOut);
 

@@ -61,9 +61,6 @@ class KernelBuilder {
   }
 
   std::optional<KernelForm> build() {
-    for (const Variable& momentum : model_.momenta) {
-      if (momentum.is_time) return std::nullopt;
-    }
     const std::optional<SplitSums> split = split_into_sums(model_, model_.hamiltonian);
     if (!split || !add_all(split->terms)) return std::nullopt;
     KernelForm form;
@@ -77,6 +74,7 @@ class KernelBuilder {
       form.sums = std::move(collective->sums);
       form.of_sums = std::move(collective->value);
     }
+    add_momentum_of_time();
     for (Boundary& boundary : boundaries_) {
       sum_ = boundary.sum;
       finish(boundary);
@@ -103,20 +101,37 @@ class KernelBuilder {
     return value;
   }
 
-  // Subscripted names of the term, with their subscripts as affine functions.
+  // H stands beside p_t, see hamiltonian() in derive.cpp.
+  void add_momentum_of_time() {
+    for (const Variable& momentum : model_.momenta) {
+      if (!momentum.is_time) continue;
+      boundaries_.emplace_back(model_, Touch{.momenta = true});
+      boundaries_.back().value = boundaries_.back().table.symbol(momentum.name, kRankOfVariable);
+    }
+  }
+
+  // Names of a term in a loop, with their subscripts as affine functions: 0 of scalars.
   struct Reference {
     const NameNode* name;
     AffineIndex subscript;
     const Variable* variable;  // null for a parameter
     const Parameter* parameter;
+
+    [[nodiscard]] std::optional<IndexRange> range() const {
+      if (!variable) return parameter->range;
+      return variable->range ? variable->range : IndexRange{.first = 0, .last = 0};
+    }
+    [[nodiscard]] bool is_scalar() const { return !name->subscript; }
   };
 
   bool collect(const NodePtr& node, const std::vector<std::string>& indices,
                std::vector<Reference>& references, std::set<std::string>& lets) const {
     if (const auto* name = std::get_if<NameNode>(&node->value)) {
       if (!name->subscript) {
-        // A scalar coordinate in a loop would need a slot of its own kind: then all is written out.
-        if (!indices.empty() && variables_.contains(name->name)) return false;
+        const auto scalar = variables_.find(name->name);
+        const bool is_index = std::ranges::find(indices, name->name) != indices.end();
+        if (scalar != variables_.end() && !is_index)
+          references.push_back({name, {}, scalar->second.first, nullptr});
         for (const Definition& definition : model_.definitions) {
           if (definition.name == name->name && lets.insert(name->name).second &&
               !collect(definition.value, indices, references, lets)) {
@@ -146,7 +161,7 @@ class KernelBuilder {
   [[nodiscard]] bool is_regular(const std::vector<Reference>& references,
                                 const Indices& indices) const {
     return std::ranges::all_of(references, [&](const Reference& r) {
-      const auto& range = r.variable ? r.variable->range : r.parameter->range;
+      const std::optional<IndexRange> range = r.range();
       const long i = value_at(r.subscript, indices);
       return range && i >= range->first && i <= range->last;
     });
@@ -189,7 +204,7 @@ class KernelBuilder {
   static bool stays_inside(const std::vector<KernelRange>& ranges,
                            const std::vector<Reference>& references) {
     return std::ranges::all_of(references, [&](const Reference& r) {
-      const auto& range = r.variable ? r.variable->range : r.parameter->range;
+      const std::optional<IndexRange> range = r.range();
       return range && least_value(r.subscript, ranges) >= range->first &&
              largest_value(r.subscript, ranges) <= range->last;
     });
@@ -203,7 +218,7 @@ class KernelBuilder {
     long first = lower;
     long last = upper;
     for (const Reference& r : references) {
-      const auto& inside = r.variable ? r.variable->range : r.parameter->range;
+      const std::optional<IndexRange> inside = r.range();
       if (!inside) last = lower - 1;
       if (!inside) continue;
       const IndexInterval fits =
@@ -302,10 +317,10 @@ class KernelBuilder {
     converter.set_element([&](const NameNode& name) -> std::optional<GiNaC::ex> {
       const auto it = std::ranges::find(references, &name, &Reference::name);
       if (it == references.end()) return std::nullopt;
-      const std::string symbol = name.name + "[" + subscript_text(it->subscript) + "]";
-      const IndexRange& range = it->variable ? *it->variable->range : *it->parameter->range;
+      const std::string symbol =
+          it->is_scalar() ? name.name : name.name + "[" + subscript_text(it->subscript) + "]";
       AffineIndex position = it->subscript;
-      position.constant -= range.first;
+      position.constant -= it->range()->first;
       if (it->variable) position.constant += variables_.at(name.name).second;
       const bool known =
           std::ranges::find(kernel.slots, symbol, &Slot::symbol) != kernel.slots.end() ||

@@ -10,6 +10,18 @@ bool uses_coordinates(const Kernel& kernel) {
   return std::ranges::any_of(kernel.slots, [](const Slot& s) { return !s.is_momentum; });
 }
 
+bool is_fixed(const Kernel& kernel, const Slot& slot) {
+  return !kernel.ranges.empty() && slot.position.factors.empty();
+}
+
+std::set<std::string> varying_symbols(const Kernel& kernel) {
+  std::set<std::string> symbols;
+  for (const Slot& slot : kernel.slots) {
+    if (!is_fixed(kernel, slot)) symbols.insert(slot.symbol);
+  }
+  return symbols;
+}
+
 bool uses_momenta(const Kernel& kernel) {
   return std::ranges::any_of(kernel.slots, &Slot::is_momentum);
 }

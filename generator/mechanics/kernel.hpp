@@ -71,6 +71,10 @@ struct KernelForm {
   Expression of_sums;
 };
 
+// Is the slot the same element in all instances of a loop?
+[[nodiscard]] bool is_fixed(const Kernel& kernel, const Slot& slot);
+// The symbols of the others.
+[[nodiscard]] std::set<std::string> varying_symbols(const Kernel& kernel);
 // Which part of the state the kernel's slots lie in.
 [[nodiscard]] bool uses_coordinates(const Kernel& kernel);
 [[nodiscard]] bool uses_momenta(const Kernel& kernel);

@@ -30,16 +30,18 @@ long factor_of(const AffineIndex& index) {
 }
 // How far apart the elements of neighbouring instances are; a constant has none.
 long stride_of(const Kernel& kernel) {
-  const bool moves = !kernel.ranges.empty() && !kernel.slots.empty();
-  return moves ? std::abs(factor_of(kernel.slots.front().position)) : 1;
+  for (const Slot& slot : kernel.slots) {
+    if (!slot.position.factors.empty()) return std::abs(factor_of(slot.position));
+  }
+  return 1;
 }
 
-// Where each instance meets a fixed number of others.
-void require_neighbours(const Kernel& kernel) {
+// Where each instance meets a fixed number of others, or all of them in t alone.
+void require_neighbours(const Kernel& kernel, std::optional<long> time) {
   if (kernel.ranges.size() > 1) throw NotLocal{"a sum over several indices"};
   for (const Slot& slot : kernel.slots) {
     const bool moves = !slot.position.factors.empty();
-    if (!kernel.ranges.empty() && !moves)
+    if (is_fixed(kernel, slot) && slot.position.constant != time)
       throw NotLocal{fmt::format("{} in every summand of a sum", slot.symbol)};
     if (moves && std::abs(factor_of(slot.position)) != stride_of(kernel))
       throw NotLocal{fmt::format("{} beside {}, whose distance grows", kernel.slots.front().symbol,
@@ -136,8 +138,9 @@ class KernelSeries {
         n_(mechanics.degrees_of_freedom),
         tables_(coordinate_chart({Expression::symbol("q"), Expression::symbol("p")}, gauge)),
         terms_{{}, mechanics.kernels} {
+    if (mechanics.has_time) time_ = n_ - 1;
     for (const Kernel& kernel : mechanics.kernels) {
-      require_neighbours(kernel);
+      require_neighbours(kernel, time_);
       stride_ = std::lcm(stride_, stride_of(kernel));
     }
   }
@@ -152,13 +155,38 @@ class KernelSeries {
         add_instances(
             all, [&](Part& part) { return share * value(part); }, next);
     };
+    // p_t stands alone in H: what it moves by is a sum over all instances that t stands in.
+    const auto add_of_time = [&](const SparseMatrix& table, const Expression& factor, int power) {
+      for (const long column : {0, 1}) {
+        const auto weight = table.find({1, static_cast<int>(column)});
+        if (weight == table.end()) continue;
+        const AffineIndex place{.constant = *time_ + column * n_, .factors = {}};
+        const Expression share_of_it = factor * weight->second;
+        for (const Kernel& other : terms_[at(power)]) {
+          for (std::size_t s = 0; s < other.slots.size(); ++s) {
+            if (other.slots[s].position != place) continue;
+            add(other, [&](Part& part) { return share_of_it * part.own(other.gradient[s]); });
+          }
+        }
+      }
+    };
     if (!vanishes) {
-      for (const Kernel& kernel : mechanics_.kernels)
-        add(kernel, [&](Part& part) { return moved(part, k); });
+      for (const Kernel& kernel : mechanics_.kernels) {
+        if (!is_momentum_of_time(kernel)) {
+          add(kernel, [&](Part& part) { return moved(part, k); });
+          continue;
+        }
+        for (int l = 0; l < k; ++l) add_of_time(tables_.displacements[at(l)], 1, k - l);
+      }
       for (int l = 0; l + 2 <= k; ++l) {
         for (int i = 1; i + l < k; ++i) {
-          for (const Kernel& kernel : terms_[at(i)])
-            add(kernel, [&](Part& part) { return turned(part, l, k - l - i); });
+          for (const Kernel& kernel : terms_[at(i)]) {
+            if (is_momentum_of_time(kernel)) {
+              add_of_time(tables_.gauges[at(l + 1)], Expression(Rational(-(l + 1), 2)), k - l - i);
+            } else {
+              add(kernel, [&](Part& part) { return turned(part, l, k - l - i); });
+            }
+          }
         }
       }
     }
@@ -194,6 +222,11 @@ class KernelSeries {
  private:
   using Summand = std::function<Expression(Part&)>;
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+  [[nodiscard]] bool is_momentum_of_time(const Kernel& kernel) const {
+    return time_ && kernel.slots.size() == 1 &&
+           kernel.slots.front().position == AffineIndex{.constant = *time_ + n_, .factors = {}};
+  }
 
   static void require_few_operations(const std::vector<Kernel>& kernels) {
     long total = 0;
@@ -289,6 +322,8 @@ class KernelSeries {
     for (const Kernel& other : terms_[at(power)]) {
       for (std::size_t s = 0; s < other.slots.size(); ++s) {
         if (other.gradient[s].is_zero()) continue;
+        if (is_fixed(other, other.slots[s]) && other.slots[s].position == element)
+          throw NotLocal{fmt::format("{} in every summand of a sum", other.slots[s].symbol)};
         const auto found = meeting(element, range, other.slots[s].position, range_of(other));
         if (!found) continue;
         const bool begins = found->first > range.lower.constant;
@@ -305,6 +340,7 @@ class KernelSeries {
 
   const Mechanics& mechanics_;
   long n_;
+  std::optional<long> time_;                // the place of t
   Chart tables_;                            // of one degree of freedom
   long stride_ = 1;                         // a multiple of that of every kernel
   std::vector<std::vector<Kernel>> terms_;  // from S_1 on at place 1

@@ -126,7 +126,7 @@ GiNaC::ex TreeConverter::convert_name(const NameNode& name, const Span& span,
   if (name.name == "pi" && !name.subscript) return GiNaC::Pi;
   if (const auto it = indices.find(name.name); it != indices.end()) return it->second;
   if (symbolic_indices_.contains(name.name)) return table_.symbol(name.name, kRankOfParameter);
-  if (name.subscript && element_) {
+  if (element_) {
     if (const auto value = element_(name)) return *value;
   }
   if (const auto it = variables_.find(name.name); it != variables_.end()) {

@@ -32,7 +32,7 @@ class TreeConverter {
   [[nodiscard]] GiNaC::ex convert_at(const NodePtr& node, const Indices& indices) {
     return convert(node, indices);
   }
-  // For loops that stay loops: what a subscripted name stands for, and indices that stay symbols.
+  // For loops that stay loops: what a name stands for there, and indices that stay symbols.
   using Element = std::function<std::optional<GiNaC::ex>(const NameNode&)>;
   void set_element(Element element) { element_ = std::move(element); }
   // What an indexed sum stands for, where it stays a loop.

@@ -110,10 +110,8 @@ void add_kernel_functions(Program& code, const Environment& environment,
 void add_functions(Program& code, const Environment& environment, const LoweredStep& lowered) {
   const Mechanics& mechanics = lowered.plan.equations.mechanics;
   const bool array = std::holds_alternative<RungeKutta>(lowered.plan.equations.scheme.method);
-  code.routines.push_back(with_remark(
-      number_routine(environment, "energy", lowered.energy),
-      mechanics.has_time ? "H(q, p, t) + p_t, which is constant where H(q, p, t) is not."
-                         : "H(q, p)."));
+  code.routines.push_back(
+      with_remark(number_routine(environment, "energy", lowered.energy), energy_remark(mechanics)));
   if (!lowered.modified_powers.empty()) {
     code.routines.push_back(modified_energies(environment, lowered));
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generator/mechanics/kernel.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -20,5 +21,7 @@ struct FirstLoop {
 // of them more than once.
 [[nodiscard]] std::optional<FirstLoop> first_loop(const std::vector<Kernel>& kernels, bool momenta,
                                                   int degrees_of_freedom);
+// Sets the elements of an array of n to zero that are not covered.
+void add_zeros(Routine& routine, const std::string& array, const Elements& covered, int n);
 
 }  // namespace hamgen

@@ -31,6 +31,7 @@ std::optional<std::vector<long>> offsets(const Kernel& kernel) {
   std::map<std::string, long> first;
   for (std::size_t s = 0; s < kernel.slots.size(); ++s) {
     if (kernel.gradient[s].is_zero()) continue;
+    if (is_fixed(kernel, kernel.slots[s])) continue;
     const long at = kernel.slots[s].position.constant;
     const auto [it, is_new] = first.emplace(array_of(kernel.slots[s].symbol), at);
     if (!is_new) it->second = std::min(it->second, at);
@@ -38,7 +39,8 @@ std::optional<std::vector<long>> offsets(const Kernel& kernel) {
   std::vector<long> result;
   for (const Slot& slot : kernel.slots) {
     const auto it = first.find(array_of(slot.symbol));
-    result.push_back(it == first.end() ? 0 : slot.position.constant - it->second);
+    result.push_back(
+        it == first.end() || is_fixed(kernel, slot) ? 0 : slot.position.constant - it->second);
     if (result.back() > kFarthest) return {};
   }
   return result;
@@ -49,7 +51,7 @@ bool is_chain(const Kernel& kernel) {
   const KernelRange& range = kernel.ranges.front();
   const bool fixed = range.lower.factors.empty() && range.upper.factors.empty();
   return fixed && std::ranges::all_of(kernel.slots, [&](const Slot& slot) {
-           return steps_by_one(slot.position, range.index);
+           return is_fixed(kernel, slot) || steps_by_one(slot.position, range.index);
          });
 }
 
@@ -115,7 +117,9 @@ class Gathering {
       known.emplace(slot.symbol, Expression::symbol(symbol, rank));
       slot.symbol = symbol;
     };
-    for (Slot& slot : result.slots) fix(slot, rank(slot.position));
+    for (Slot& slot : result.slots) {
+      if (!slot.position.factors.empty()) fix(slot, rank(slot.position));
+    }
     for (ParameterSlot& slot : result.parameters) fix(slot, kRankOfParameter);
     for (Expression& value : result.gradient) value = substitute(value, known);
     return result;
@@ -131,10 +135,11 @@ class Gathering {
     Substitution moved;
     for (const Slot& slot : kernel_.slots) {
       AffineIndex position = slot.position;
-      position.constant -= offset;
+      if (!is_fixed(kernel_, slot)) position.constant -= offset;
       auto known = std::ranges::find(into.slots, position, &Slot::position);
       if (known == into.slots.end()) {
-        const std::string symbol = name(slot.symbol, offset);
+        const std::string symbol =
+            is_fixed(kernel_, slot) ? slot.symbol : name(slot.symbol, offset);
         into.slots.push_back({symbol, position, slot.is_momentum});
         into.gradient.emplace_back(0);
         known = std::prev(into.slots.end());
@@ -187,15 +192,14 @@ std::vector<Kernel> gathered(const Kernel& kernel) {
   if (!is_chain(kernel)) return {kernel};
   const std::string& index = kernel.ranges.front().index;
   const auto plain = [&](const auto& slot) { return is_plain(slot.symbol, index); };
-  if (!std::ranges::all_of(kernel.slots, plain) || !std::ranges::all_of(kernel.parameters, plain))
+  const auto fits = [&](const Slot& slot) { return is_fixed(kernel, slot) || plain(slot); };
+  if (!std::ranges::all_of(kernel.slots, fits) || !std::ranges::all_of(kernel.parameters, plain))
     return {kernel};
   const std::optional<std::vector<long>> found = offsets(kernel);
   if (!found || std::ranges::none_of(*found, [](long offset) { return offset > 0; }))
     return {kernel};
-  std::set<std::string> varying;
-  for (const Slot& slot : kernel.slots) varying.insert(slot.symbol);
   const long most = is_polynomial(kernel) ? kCheapPolynomial : kCheap;
-  const bool cheap = operation_count(kernel.gradient, varying) <= most;
+  const bool cheap = operation_count(kernel.gradient, varying_symbols(kernel)) <= most;
   const long length = kernel.ranges.front().upper.constant - kernel.ranges.front().lower.constant;
   if (!cheap || length <= 2 * kFarthest) return {kernel};
   return Gathering(kernel, *found).run();

@@ -11,6 +11,7 @@
 #include "generator/program/collective_loops.hpp"
 #include "generator/program/first_loop.hpp"
 #include "generator/program/gathered_kernel.hpp"
+#include "generator/program/kernel_evaluation.hpp"
 #include "generator/program/lower.hpp"
 #include "generator/program/lowered_step.hpp"
 #include "generator/program/names.hpp"
@@ -41,7 +42,7 @@ class KernelRoutine {
 
   Routine energy() {
     routine_.name = "energy";
-    routine_.remark = {"H(q, p)."};
+    routine_.remark = {energy_remark(mechanics_)};
     routine_.result = {.type = "Real"};
     routine_.arguments.push_back(state_argument("z"));
     q_ = {"z", "q"};
@@ -91,10 +92,10 @@ class KernelRoutine {
       for (std::size_t i = 0; i < results.size(); ++i) {
         const std::string slope = slope_of(*slots[i]);
         const std::optional<FirstLoop>& begin = begins.at(slots[i]->is_momentum ? 1 : 0);
-        if (begin && begin->kernel == &kernel && begun.insert(slope).second) {
-          body.push_back({Assign{slope, results[i]}});
-        } else if (is_outside(kernel, *slots[i])) {
+        if (is_outside(kernel, *slots[i])) {
           sum_up(slope, results[i], body);
+        } else if (begin && begin->kernel == &kernel && begun.insert(slope).second) {
+          body.push_back({Assign{slope, results[i]}});
         } else {
           body.push_back({Accumulate{slope, results[i]}});
         }
@@ -213,24 +214,7 @@ class KernelRoutine {
   void add_target(const std::string& name, bool wanted, const std::optional<FirstLoop>& begin) {
     if (!wanted) return;
     routine_.arguments.push_back({.name = name, .sizes = {n_}, .changes = true, .decays = true});
-    long next = 0;
-    for (const auto& [first, last] : begin ? begin->covered : Elements()) {
-      add_zeros(name, next, first - 1);
-      next = last + 1;
-    }
-    add_zeros(name, next, n_ - 1);
-  }
-  void add_zeros(const std::string& name, long first, long last) {
-    for (long i = first; last - first < 2 && i <= last; ++i) {
-      const AffineIndex at{i, {}};
-      const std::string element =
-          bind(fmt::format("{}({})", name, i), {.object = name, .indices = {at}});
-      routine_.body.push_back({Assign{element, Expression(0)}});
-    }
-    if (last - first < 2) return;
-    const std::string element = bind(name + "(i)", {.object = name, .indices = {{0, {{"i", 1}}}}});
-    Body zero{{Assign{element, Expression(0)}}};
-    routine_.body.push_back({For{{"i", {first, {}}, {last, {}}}, std::move(zero)}});
+    add_zeros(routine_, name, begin ? begin->covered : Elements(), n_);
   }
 
   std::string bind(const std::string& symbol, Place place) {
@@ -278,15 +262,17 @@ class KernelRoutine {
     return part_ == Part::all || uses_momenta(kernel) == (part_ == Part::kinetic);
   }
 
-  // Does the innermost of several loops leave the slot where it is?
+  // Does the innermost loop leave the slot where it is?
   [[nodiscard]] static bool is_outside(const Kernel& kernel, const Slot& slot) {
-    return kernel.ranges.size() > 1 && !slot.position.factors.contains(kernel.ranges.back().index);
+    return !kernel.ranges.empty() && !slot.position.factors.contains(kernel.ranges.back().index);
   }
+
   // An element that stands still in the innermost loop is summed up in a local around that.
   void sum_up(const std::string& element, const Expression& value, Body& body) {
     const std::string sum = fmt::format("sum of {}", element);
     const bool is_new = std::ranges::none_of(before_, [&](const Instruction& instruction) {
-      return std::get<Let>(instruction.value).symbol == sum;
+      const auto* let = std::get_if<Let>(&instruction.value);
+      return let != nullptr && let->symbol == sum;
     });
     if (is_new) {
       before_.push_back({Let{sum, Expression(0), true}});
@@ -312,14 +298,16 @@ class KernelRoutine {
                          .field = member_identifier(slot.parameter),
                          .indices = {renamed(slot.position)}});
     }
-    const Evaluation evaluation = evaluate_together(substitute(values, indices));
     std::set<std::string> loaded;
     for (const Slot& slot : kernel.slots) {
       if (!used.contains(slot.symbol) || !loaded.insert(slot.symbol).second) continue;
       const Place place = element(slot);
       const std::string source = bind("at " + to_text(place), place);
-      body.push_back({Let{slot.symbol, Expression::symbol(source, kRankOfTemporary)}});
+      Body& where = is_fixed(kernel, slot) ? before_ : body;
+      where.push_back({Let{slot.symbol, Expression::symbol(source, kRankOfTemporary)}});
     }
+    const KernelEvaluation evaluation = evaluate(kernel, values, indices);
+    append(before_, evaluation.before);
     append(body, evaluation.statements);
     return evaluation.results;
   }
@@ -351,7 +339,11 @@ class KernelRoutine {
         }
         body = std::move(outer);
       }
-      routine_.body.push_back(std::move(body.front()));
+      if (body.size() == 1) {
+        routine_.body.push_back(std::move(body.front()));
+      } else {
+        routine_.body.push_back({Scope{std::move(body)}});
+      }
     }
     for (Body& body : single) {
       if (single.size() > 1 || std::exchange(has_instance_, true)) {
@@ -373,6 +365,11 @@ class KernelRoutine {
 };
 
 }  // namespace
+
+std::string energy_remark(const Mechanics& mechanics) {
+  return mechanics.has_time ? "H(q, p, t) + p_t, which is constant where H(q, p, t) is not."
+                            : "H(q, p).";
+}
 
 Routine kernel_energy(const Environment& environment, const Mechanics& mechanics) {
   return KernelRoutine(environment, mechanics, Part::all).energy();

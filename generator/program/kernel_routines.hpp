@@ -16,6 +16,8 @@ namespace hamgen {
 // Which kernels a function sums, by what they read.
 enum class Part { all, potential, kinetic };
 
+// What is said of the routine `energy`.
+[[nodiscard]] std::string energy_remark(const Mechanics& mechanics);
 [[nodiscard]] Routine kernel_energy(const Environment& environment, const Mechanics& mechanics);
 [[nodiscard]] Routine kernel_gradient(const Environment& environment, const Mechanics& mechanics,
                                       std::string name, Part part, bool in_parts);

@@ -18,8 +18,8 @@ std::vector<AffineIndex> loop_mass_index(const ArrayPlan& plan, const std::strin
 
 std::optional<Coefficients> loop_coefficients(const Environment& environment,
                                               const StepWeights& weights, const ArrayPlan& plan,
-                                              bool tangent,
-                                              const std::vector<NamedWeight>& beside) {
+                                              bool tangent, bool tells_momenta,
+                                              const std::optional<StateRounding>& beside) {
   const int n = environment.degrees_of_freedom;
   const bool needs_drift = plan.reduced && weights.p_by_p.has_value();
   const bool needs_scale = plan.reduced && plan.matrix.has_value();
@@ -43,9 +43,9 @@ std::optional<Coefficients> loop_coefficients(const Environment& environment,
     b.body().push_back(
         {Call{.routine = "kinetic_gradient", .arguments = {{"par"}, {"zero"}, {"k", "drift"}}}});
   }
-  const bool keeps_mass = !one_mass || needs_drift || tangent || plan.constant_matrix ||
-                          (plan.matrix && !plan.mass->is_number());
-  if (plan.reduced && keeps_mass && (needs_drift || needs_scale)) {
+  const bool is_number = one_mass && plan.mass->is_number();
+  const bool keeps_mass = !is_number || needs_drift || tangent || plan.constant_matrix;
+  if (plan.reduced && keeps_mass && (needs_drift || needs_scale || tells_momenta)) {
     record.fields.push_back({.name = "mass", .sizes = sizes, .remark = "d2H/dp_i^2"});
     if (one_mass) {
       b.body().push_back({Assign{b.at("k", "mass").name(), *plan.mass}});
@@ -64,7 +64,8 @@ std::optional<Coefficients> loop_coefficients(const Environment& environment,
       b.body().push_back(for_each(counting("i", n), std::move(each)));
     }
   }
-  for (const auto& [name, value, remark] : beside) {
+  const auto rounding = beside ? beside->coefficients() : std::vector<NamedWeight>();
+  for (const auto& [name, value, remark] : rounding) {
     record.fields.push_back({.name = name, .remark = remark});
     b.body().push_back({Assign{b.at("k", name).name(), value}});
   }

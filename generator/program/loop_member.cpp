@@ -22,8 +22,8 @@ class LoopMember : LoopStage {
   void add() {
     const bool solved = iterates(arrays_);
     if (solved || plan_.sweeps) {
-      if (std::optional<Coefficients> found =
-              loop_coefficients(environment_, weights_, arrays_, tangent_, beside_)) {
+      if (std::optional<Coefficients> found = loop_coefficients(
+              environment_, weights_, arrays_, tangent_, tells_momenta(), beside_)) {
         code_.records.push_back(std::move(found->record));
         code_.routines.push_back(std::move(found->prepare));
         has_coefficients_ = true;
@@ -76,8 +76,7 @@ class LoopMember : LoopStage {
                               .values = {0},
                               .type = "bool"});
     }
-    if (!beside_.empty()) array("beside", unknowns(), "what they are rounded with as well");
-    if (!beside_.empty()) start.fields.push_back({.name = "near", .remark = kNearRemark});
+    if (beside_) beside_->add_fields(start, unknowns());
     if (both() && !arrays_.reduced)
       array("expected", unknowns(), "what the fixed point began with");
     if (arrays_.reduced && !velocity_) array("momentum", n_, "of zbar");
@@ -113,7 +112,7 @@ class LoopMember : LoopStage {
       start.fields.push_back(
           {.name = "rule", .type = settles() ? contraction : std::string(plan_.rule)});
       start.fields.push_back(
-          {.name = "refinement", .type = refinement_type(unknowns(), 2 * n_, rounds_beside())});
+          {.name = "refinement", .type = refinement_type(unknowns(), 2 * n_, beside_.has_value())});
     }
     code_.records.push_back(std::move(start));
   }
@@ -215,7 +214,7 @@ class LoopMember : LoopStage {
   }
   void add_start(RoutineBuilder& b) const {
     b.body().push_back({If{{"start", "known"}, false, from_state(b)}});
-    add_rounded_beside(b);
+    add_rounded_state(b);
   }
   [[nodiscard]] Body iteration_body(RoutineBuilder& b, bool in_parts) const {
     Body body;
@@ -251,7 +250,7 @@ class LoopMember : LoopStage {
                          .ranges = {elements()},
                          .unknowns = unknown_arrays(b),
                          .body = std::move(body),
-                         .values = {"start", beside_.empty() ? "value" : "beside"},
+                         .values = {"start", beside_ ? "beside" : "value"},
                          .increments = {"start", "lack"},
                          .count = static_cast<int>(unknowns())};
     b.body().push_back({std::move(iterate), {"Newton's iteration on what the equations lack."}});
@@ -292,7 +291,7 @@ class LoopMember : LoopStage {
                                     .components = 2 * n_,
                                     .begun = true,
                                     .gives_up = both(),
-                                    .beside = refined_beside(b),
+                                    .beside = beside_ ? refined_length(b) : Expression(0),
                                     .body = refined},
                         {kRefinementRemark}});
   }

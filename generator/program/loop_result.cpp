@@ -4,13 +4,13 @@
 
 namespace hamgen {
 
+Expression LoopStage::mass_of_result(RoutineBuilder& b) const {
+  return arrays_.mass && arrays_.mass->is_number() ? *arrays_.mass : mass(b);
+}
+
 // Note [what the torn momenta lose]
 // They are rounded, at every step alike where the products that they are made of have a pattern,
 // and h m times that is missing in dq: two thirds of a bias of 1e-4 units of rounding a step.
-bool LoopStage::knows_momentum_error() const {
-  return settles() && !needs_drift() && arrays_.mass && arrays_.mass->is_number();
-}
-
 Expression LoopStage::lost_of_momentum(RoutineBuilder& b, Body& each) const {
   // In this order: z and bar cancel without an error.
   const Expression z = state(b, "z", "p");
@@ -54,14 +54,14 @@ void LoopStage::add_result(RoutineBuilder& b, bool refined) const {
     }
     if (refined) small += flow("refinement.change");
     if (!refined && is_sharp()) small += change_of_flow(b, is_p);
-    const bool tells_momenta = refined && knows_momentum_error();
-    if (tells_momenta && !is_p) {
-      small += step_size() * *arrays_.mass * lost_of_momentum(b, each);
+    const bool tells = refined && tells_momenta();
+    if (tells && !is_p) {
+      small += step_size() * mass_of_result(b) * lost_of_momentum(b, each);
     }
     if (weights_.shares) {
       const Expression slope =
           b.at("start", refined ? "refinement.slope" : "slope", {affine("i", from)});
-      const auto [product, lost] = tells_momenta && is_p
+      const auto [product, lost] = tells && is_p
                                        ? RoundedTerm{b.local("p_flow"), b.local("p_flow_lost")}
                                        : StepWeights::flow_of(b, each, !is_p, slope);
       large = is_p ? -product : product;
@@ -83,8 +83,7 @@ Expression LoopStage::change_of_flow(RoutineBuilder& b, bool is_p) const {
   if (!arrays_.reduced) return step_size() * change(n_);
   if (!weights_.p_by_q) return Expression(0);
   weights_.bind(b.routine());
-  const Expression mass = arrays_.mass && arrays_.mass->is_number() ? *arrays_.mass : this->mass(b);
-  return -(step_size() * mass * own_share(b) * *weights_.p_by_q * change(0));
+  return -(step_size() * mass_of_result(b) * own_share(b) * *weights_.p_by_q * change(0));
 }
 
 }  // namespace hamgen

@@ -1,8 +1,6 @@
 #include "generator/program/loop_stage.hpp"
 
-#include "generator/mechanics/cancelling_forces.hpp"
 #include "generator/program/kernel_routines.hpp"
-#include "generator/program/loop_coefficients.hpp"
 #include "generator/program/lower.hpp"
 #include "generator/solvers/array_matrix.hpp"
 
@@ -66,45 +64,19 @@ Expression LoopStage::momentum(RoutineBuilder& b) const {
                          : b.at("start", "value", {affine("i", n_)});
 }
 
-void LoopStage::find_rounded_beside() {
-  const Mechanics of_energy = plan_.equations.of_energy();
-  if (!of_energy.is_separable() || !has_diagonal_kinetic_energy(of_energy)) return;
-  const std::optional<CancellingForce> force = cancelling_force_in_loops(of_energy);
-  if (!force) return;
-  const std::optional<Expression> mass = uniform_mass(of_energy);
-  if (!mass) return;
-  const Expression of_q = rounded_beside(*force, scale_of(weights_, *mass));
-  if (of_q.is_zero()) return;
-  beside_ = {{"beside_q", of_q, "what forces that cancel round q with"},
-             {"reach", force->reach(), "where that is: 1/q^2"}};
-  if (arrays_.reduced) return;
-  // They move q by way of h dH/dp.
-  const Expression of_p = Expression::apply("abs", {of_q * Expression(2) / (*mass * step_size())});
-  beside_.push_back({"beside_p", of_p, "and p"});
-}
-
-void LoopStage::add_rounded_beside(RoutineBuilder& b) const {
-  if (beside_.empty()) return;
-  const Expression q = state(b, "z", "q");
-  b.body().push_back({Assign{near(b).name(), 0}});
-  b.body().push_back(for_each(elements(), {{Accumulate{near(b).name(), q * q}}}));
-  b.body().push_back({Assign{near(b).name(), nearness(near(b) * b.at("k", "reach"))}});
-  Body each;
-  each.push_back({Assign{rounded_with(b, false).name(), q + refined_beside(b)}});
-  if (!arrays_.reduced) {
-    const Expression of_p = b.at("k", "beside_p") * near(b);
-    each.push_back({Assign{rounded_with(b, true).name(), state(b, "z", "p") + of_p}});
-  }
-  b.body().push_back(for_each(elements(), std::move(each)));
+void LoopStage::add_rounded_state(RoutineBuilder& b) const {
+  if (!beside_) return;
+  add_rounding(b, *beside_,
+               {.each = elements(),
+                .q = state(b, "z", "q"),
+                .p = state(b, "z", "p"),
+                .beside_q = rounded_with(b, false),
+                .beside_p = rounded_with(b, true)});
 }
 
 Expression LoopStage::rounded_with(RoutineBuilder& b, bool momentum) const {
-  if (beside_.empty()) return state(b, "z", momentum ? "p" : "q");
+  if (!beside_) return state(b, "z", momentum ? "p" : "q");
   return b.at("start", "beside", {affine("i", momentum ? n_ : 0)});
-}
-
-Expression LoopStage::refined_beside(RoutineBuilder& b) const {
-  return beside_.empty() ? Expression(0) : b.at("k", "beside_q") * near(b);
 }
 
 Expression LoopStage::lack(RoutineBuilder& b, bool momentum) const {
@@ -233,6 +205,8 @@ Routine LoopStage::differentiate() const {
   const bool reduced = arrays_.reduced;
   const bool one_scale = arrays_.mass.has_value();
   const int n = n_;
+  Mechanics of_matrix = mechanics_;
+  of_matrix.kernels = kernels_of_matrix(mechanics_, weights_.member);
   const auto use = [=](Routine& routine, Body& body, const HessianEntry& entry) {
     const auto coefficient = [&](const Place& place) {
       routine.places.insert_or_assign(to_text(place), place);
@@ -258,7 +232,7 @@ Routine LoopStage::differentiate() const {
     if (to_q) put(row, 0, -*to_q);
     if (to_p) put(row, n, *to_p);
   };
-  return kernel_entries(environment_, mechanics_, part, b.take(), {"at"}, {"at", {}, {affine(n_)}},
+  return kernel_entries(environment_, of_matrix, part, b.take(), {"at"}, {"at", {}, {affine(n_)}},
                         use);
 }
 

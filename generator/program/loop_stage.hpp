@@ -12,6 +12,7 @@
 #include "generator/program/program.hpp"
 #include "generator/program/refinement_type.hpp"
 #include "generator/program/routine_builder.hpp"
+#include "generator/program/state_rounding.hpp"
 #include "generator/program/step_weights.hpp"
 
 namespace hamgen {
@@ -43,7 +44,8 @@ class LoopStage {
       velocity_ = local_velocity(mechanics_, "i");
     const bool moves_q = weights_.q_by_p.has_value() && !weights_.shares;
     if (is_sharp() && moves_q && !raised() && has_linear_forces(mechanics_)) weights_.split_flow();
-    if (iterates(arrays_) && !is_linear()) find_rounded_beside();
+    if (iterates(arrays_) && !is_linear())
+      beside_ = loops_rounded_beside(plan_.equations, weights_, arrays_.reduced);
   }
 
  protected:
@@ -67,6 +69,10 @@ class LoopStage {
   // falls from one iteration to the next: q does not wait for p.
   [[nodiscard]] bool settles() const {
     return both() || (fixed_point() && arrays_.reduced && plan_.rule == kFixedPointRule);
+  }
+  // Is it known what the torn momenta lose in rounding?
+  [[nodiscard]] bool tells_momenta() const {
+    return arrays_.reduced && settles() && !needs_drift();
   }
   [[nodiscard]] int unknowns() const { return arrays_.reduced ? n_ : 2 * n_; }
   [[nodiscard]] bool needs_drift() const { return arrays_.reduced && weights_.p_by_p.has_value(); }
@@ -112,13 +118,9 @@ class LoopStage {
   }
   // With the momenta torn out the derivative is I + D V'', else I - h (I/2 + C) J H''.
   [[nodiscard]] Routine differentiate() const;
-  // start.beside = z and what forces that cancel round it with; the latter for Refinement, or 0.
-  void add_rounded_beside(RoutineBuilder& b) const;
+  void add_rounded_state(RoutineBuilder& b) const;
+  // An element of what the state is rounded with, z or start.beside.
   [[nodiscard]] Expression rounded_with(RoutineBuilder& b, bool momentum) const;
-  [[nodiscard]] Expression refined_beside(RoutineBuilder& b) const;
-  // Of these lengths, see nearness().
-  static Expression near(RoutineBuilder& b) { return b.at("start", "near"); }
-  [[nodiscard]] bool rounds_beside() const { return !beside_.empty(); }
   // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.
   void add_stage(RoutineBuilder& b, Body& each) const;
   // dz, and rest where there is one, by the gradient at the stage: by Refinement's where the
@@ -136,14 +138,11 @@ class LoopStage {
   StepWeights weights_;
   std::optional<LocalVelocity> velocity_;  // of torn momenta
   bool has_coefficients_ = false;
-  bool is_quadratic_;  // is H, with a constant matrix?
-  // Coefficients: what q, and p, are rounded with besides, or none.
-  std::vector<NamedWeight> beside_;
+  bool is_quadratic_;                    // is H, with a constant matrix?
+  std::optional<StateRounding> beside_;  // what the unknowns are rounded with
 
  private:
-  void find_rounded_beside();
-  // Is it known what the torn momenta lose in rounding?
-  [[nodiscard]] bool knows_momentum_error() const;
+  [[nodiscard]] Expression mass_of_result(RoutineBuilder& b) const;
   Expression lost_of_momentum(RoutineBuilder& b, Body& each) const;
   // What H'' times the last increment adds to dz.
   [[nodiscard]] Expression change_of_flow(RoutineBuilder& b, bool is_p) const;

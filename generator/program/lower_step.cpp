@@ -107,8 +107,7 @@ LoweredStep with_tangent(LoweredStep lowered) {
     ArrayPlan& arrays = *lowered.plan.arrays;
     if (iterates(arrays) && !arrays.matrix) {
       const FamilyParameters member = uniform_parameters(equations.scheme.member()).value();
-      arrays.matrix = choose_matrix(equations.mechanics, member, arrays.reduced,
-                                    arrays.mass.has_value(), arrays.eigen);
+      arrays.matrix = choose_matrix(equations.mechanics, member, arrays.reduced, arrays.eigen);
     }
   } else if (solved) {
     lowered.linearisation = linearise(lowered.plan);

@@ -3,6 +3,7 @@
 #include "generator/program/loop_coefficients.hpp"
 #include "generator/program/method_tangents.hpp"
 #include "generator/program/step_weights.hpp"
+#include "generator/solvers/solve_plan.hpp"
 
 namespace hamgen {
 
@@ -89,7 +90,8 @@ class LoopMemberTangent {
  public:
   LoopMemberTangent(const Environment& environment, const LoweredStep& lowered, const Program& code,
                     std::string name)
-      : arrays_(*lowered.plan.arrays),
+      : mechanics_(lowered.plan.equations.mechanics),
+        arrays_(*lowered.plan.arrays),
         code_(code),
         weights_(*uniform_parameters(lowered.plan.equations.scheme.member())),
         b_(environment, lowered, std::move(name), {}),
@@ -152,8 +154,9 @@ class LoopMemberTangent {
     Body right{{Assign{element("moved", 0).name(), right_side()}}};
     if (!arrays_.reduced) right.push_back({Assign{element("moved", n_).name(), element("u", n_)}});
     column.push_back(for_each(counting("row", n_), std::move(right)));
-    column.push_back({SolveFactorised{{"matrix"}, {"moved"}}});
     column.push_back({Array{"y", {2 * n_}}});
+    if (knows_time(mechanics_, weights_.member)) add_time(column);
+    column.push_back({SolveFactorised{{"matrix"}, {"moved"}}});
     add_curvature(column);
     const Expression u_q = element("u", 0);
     const Expression u_p = element("u", n_);
@@ -197,6 +200,30 @@ class LoopMemberTangent {
     return u + *weights_.q_by_p * own * torn(element("u", n_));
   }
 
+  // The matrix is without what t moves: moved -= (A e_t) u_t, but for the row of t.
+  void add_time(Body& column) {
+    const auto time = affine(n_ - 1);
+    column.push_back({Array{"by_time", {2 * n_}}});
+    column.push_back({Assign{b_.at("by_time", "", {time}).name(), b_.at("u", "", {time})}});
+    column.push_back(b_.curvature({"at"}, {"at", "", {affine(n_)}}, {"by_time"}));
+    const Expression y_q = element("y", 0);
+    const Expression y_p = element("y", n_);
+    Body each;
+    if (arrays_.reduced) {
+      const Expression scale = b_.at("k", "scale", loop_mass_index(arrays_, "row"));
+      each.push_back({Accumulate{element("moved", 0).name(), -(scale * y_q)}});
+    } else {
+      weights_.bind(b_.routine());
+      if (weights_.q_by_p)
+        each.push_back({Accumulate{element("moved", 0).name(), *weights_.q_by_p * y_p}});
+      Expression of_p;
+      if (weights_.p_by_q) of_p += *weights_.p_by_q * y_q;
+      if (weights_.p_by_p) of_p += *weights_.p_by_p * y_p;
+      if (!of_p.is_zero()) each.push_back({Accumulate{element("moved", n_).name(), -of_p}});
+    }
+    column.push_back(for_each(counting("row", n_), std::move(each)));
+  }
+
   void add_curvature(Body& column) {
     const Place q{"at"};
     const Place p{"at", "", {affine(n_)}};
@@ -216,6 +243,7 @@ class LoopMemberTangent {
     column.push_back(for_each(counting("row", n_), std::move(momenta)));
   }
 
+  const Mechanics& mechanics_;
   const ArrayPlan& arrays_;
   const Program& code_;
   StepWeights weights_;

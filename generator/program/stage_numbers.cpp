@@ -5,7 +5,7 @@
 #include "generator/program/arithmetic.hpp"
 #include "generator/program/linear_terms.hpp"
 #include "generator/program/routine_builder.hpp"
-#include "generator/program/stage_rounding.hpp"
+#include "generator/program/state_rounding.hpp"
 
 namespace hamgen {
 
@@ -85,12 +85,8 @@ class StageNumbers {
     }
     add_scaled();
     if (order_) add_second_order();
-    if (beside_) {
-      b_.body().push_back({Assign{b_.at("k", "beside").name(), beside_->q}});
-      b_.body().push_back({Assign{b_.at("k", "reach").name(), beside_->reach}});
-      if (!beside_->p.is_zero())
-        b_.body().push_back({Assign{b_.at("k", "beside_p").name(), beside_->p}});
-    }
+    for (const NamedWeight& weight : rounding())
+      b_.body().push_back({Assign{b_.at("k", weight.name).name(), weight.value}});
     return {.record = {.name = "Coefficients",
                        .fields = fields(),
                        .remark = {"The numbers of the method, and the step."}},
@@ -99,6 +95,9 @@ class StageNumbers {
   }
 
  private:
+  [[nodiscard]] std::vector<NamedWeight> rounding() const {
+    return beside_ ? beside_->coefficients() : std::vector<NamedWeight>();
+  }
   void add_coupling() {
     const std::size_t remark = b_.body().size();
     for (int i = 0; i < stages_; ++i) {
@@ -160,11 +159,8 @@ class StageNumbers {
                       .sizes = {layout_.room()},
                       .remark = "most of h b_i, and no simple fractions"});
     }
-    if (beside_) {
-      list.push_back({.name = "beside", .remark = "what forces that cancel round q with"});
-      if (!beside_->p.is_zero()) list.push_back({.name = "beside_p", .remark = "and p"});
-      list.push_back({.name = "reach", .remark = "where that is: 1/q^2"});
-    }
+    for (const NamedWeight& weight : rounding())
+      list.push_back({.name = weight.name, .remark = weight.remark});
     if (!order_) return list;
     list.push_back({.name = "twice", .sizes = square, .remark = "[j][i]: h sum_m a_im a_mj / b_j"});
     list.push_back({.name = "node", .sizes = {layout_.room()}, .remark = "h c_i"});
@@ -214,7 +210,7 @@ class StageNumbers {
   const std::optional<SecondOrder>& order_;
   bool in_loops_;
   bool in_parts_;
-  std::optional<StageRounding> beside_;
+  std::optional<StateRounding> beside_;
   StageLayout layout_;
   int stages_;
   RoutineBuilder b_;

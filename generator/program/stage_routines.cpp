@@ -5,7 +5,7 @@
 #include "generator/program/stage_coordinates.hpp"
 #include "generator/program/stage_matrix.hpp"
 #include "generator/program/stage_numbers.hpp"
-#include "generator/program/stage_rounding.hpp"
+#include "generator/program/state_rounding.hpp"
 
 namespace hamgen {
 
@@ -70,11 +70,7 @@ class StageRoutines : StageParts {
     } else {
       array("state", dimension_, "z as an array");
     }
-    if (beside_) {
-      array("beside", states(), "what they are rounded with as well");
-      record.fields.push_back(
-          {.name = "near", .remark = "1 where forces cancel, 0 far from there"});
-    }
+    if (beside_) beside_->add_fields(record, states());
     array("small", dimension_, "the carry");
     array("value", unknowns(), "Y_i");
     array("slope", unknowns(), "L_i = h b_i f(Y_i)");
@@ -225,7 +221,13 @@ class StageRoutines : StageParts {
     }
     if (beside_) {
       const int count = coordinates_ ? states() : states() / 2;
-      add_rounding(b, *beside_, count, by_component() ? layout_.room() : 1);
+      add_rounding(b, *beside_,
+                   {.each = counting("j", count),
+                    .q = of_start(b, "state", affine("j")),
+                    .p = of_start(b, "state", affine("j", count)),
+                    .beside_q = of_start(b, "beside", affine("j")),
+                    .beside_p = of_start(b, "beside", affine("j", count)),
+                    .times = by_component() ? layout_.room() : 1});
     }
     read_state(b, b.body(), environment_, "carry", {"start", "small"}, is_array());
     const Place known{"start", "known"};
@@ -310,7 +312,7 @@ class StageRoutines : StageParts {
                        .gradient = {"start", "slope"},
                        .count = iterated(),
                        .components = unknowns()};
-    if (beside_) refine.beside = b.at("k", "beside") * b.at("start", "near");
+    if (beside_) refine.beside = refined_length(b);
     refine.steps = solver_ == StageSolver::both ? kStepsOfNewton : 0;
     if (refine.steps > 0) refine.patience = {"start", "patience"};
     const auto contract = [&](Body& body) {
@@ -383,7 +385,7 @@ class StageRoutines : StageParts {
   const LoweredStep& lowered_;
   StageSolver solver_;
   StageMatrix matrix_;
-  std::optional<StageRounding> beside_;
+  std::optional<StateRounding> beside_;
   std::optional<StageCoordinates> coordinates_;
 };
 

@@ -362,7 +362,7 @@ std::string type_of(const ArrayMatrix& matrix) {
                                        matrix.size, matrix.bandwidth);
   if (matrix.in_natural_order()) return band;
   return fmt::format("ReorderedMatrix<{}, ElementOrder<{}, {}, {}>>", band, matrix.arrays,
-                     matrix.size / matrix.arrays, matrix.folded);
+                     matrix.length(), matrix.folded);
 }
 
 const Body* inner_body(const Statement& statement) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 namespace hamgen {
 
@@ -52,7 +53,7 @@ void for_each_entry(const Mechanics& mechanics, const FamilyParameters& member, 
     if (by_q ? q_by_q : q_by_p) use(i, column);
     if (by_q ? p_by_q : p_by_p) use(n + i, column);
   };
-  for (const Kernel& kernel : mechanics.kernels) {
+  for (const Kernel& kernel : kernels_of_matrix(mechanics, member)) {
     if (kernel.hessian.empty() || (reduced && uses_momenta(kernel))) continue;
     std::vector<int> at;
     for_each_instance(kernel.ranges, [&](const std::vector<long>& indices) {
@@ -71,18 +72,24 @@ void for_each_entry(const Mechanics& mechanics, const FamilyParameters& member, 
 }  // namespace
 
 std::optional<ArrayMatrix> choose_matrix(const Mechanics& mechanics, const FamilyParameters& member,
-                                         bool reduced, bool one_mass, bool eigen) {
+                                         bool reduced, bool eigen) {
   const int size = (reduced ? 1 : 2) * mechanics.degrees_of_freedom;
-  // I + c m V'' is symmetric if m is the same for all.
-  const bool symmetric = reduced && one_mass;
-  std::vector<ArrayMatrix> orders{{.kind = MatrixKind::band, .size = size, .symmetric = symmetric}};
+  // I + c m V'' is symmetric if m is the same for all that it has besides the unit.
+  const bool symmetric =
+      reduced && uniform_mass(mechanics, knows_time(mechanics, member)).has_value();
+  const int alone = reduced && knows_time(mechanics, member) ? 1 : 0;
+  std::vector<ArrayMatrix> orders{
+      {.kind = MatrixKind::band, .size = size, .alone = alone, .symmetric = symmetric}};
   const auto add_order = [&](int arrays, bool folded) {
     orders.push_back(orders.front());
     orders.back().arrays = arrays;
     orders.back().folded = folded;
   };
   add_order(1, true);
-  if (const int arrays = equal_arrays(mechanics, size); arrays > 1) {
+  std::set<int> counts = {equal_arrays(mechanics, size - alone)};
+  if (!reduced) counts.insert(2);  // coordinates and momenta
+  counts.erase(1);
+  for (const int arrays : counts) {
     add_order(arrays, false);
     add_order(arrays, true);
   }

@@ -32,13 +32,12 @@ struct Counts {
   double hessian = 0;
 };
 
-Counts count(const Mechanics& mechanics, long function) {
+Counts count(const std::vector<Kernel>& kernels, long function) {
   Counts counts;
-  for (const Kernel& kernel : mechanics.kernels) {
+  for (const Kernel& kernel : kernels) {
     double instances = 0;
     for_each_instance(kernel.ranges, [&](const std::vector<long>&) { ++instances; });
-    std::set<std::string> varying;
-    for (const Slot& slot : kernel.slots) varying.insert(slot.symbol);
+    const std::set<std::string> varying = varying_symbols(kernel);
     std::vector<Expression> second;
     for (const auto& [slots, value] : kernel.hessian) second.push_back(value);
     const auto slots = static_cast<double>(kernel.slots.size());
@@ -70,10 +69,10 @@ double elimination(const ArrayMatrix& matrix, const Prices& prices) {
 
 }  // namespace
 
-int matrix_work(const Mechanics& mechanics, const ArrayMatrix& matrix, bool reduced,
+int matrix_work(const std::vector<Kernel>& kernels, const ArrayMatrix& matrix, bool reduced,
                 NumbersOf numbers) {
   const Prices& prices = numbers == NumbersOf::processor ? kOfProcessor : kOfLibrary;
-  const Counts counts = count(mechanics, prices.function);
+  const Counts counts = count(kernels, prices.function);
   const double evaluation = counts.gradient + kOfUnknown * matrix.size;
   const double work = (counts.hessian + elimination(matrix, prices)) / evaluation;
   const double most = reduced ? kMostWork : 2 * kMostWork;

@@ -8,8 +8,9 @@ namespace hamgen {
 
 // What filling in and eliminating the matrix of Newton's iteration costs, in evaluations of the
 // equations; at most 13, which is what a fixed point takes that halves its error every time, or 26
-// where momenta are not torn out (`reduced`) and it halves it every second time.
-[[nodiscard]] int matrix_work(const Mechanics& mechanics, const ArrayMatrix& matrix, bool reduced,
-                              NumbersOf numbers);
+// where momenta are not torn out (`reduced`) and it halves it every second time.  The kernels are
+// kernels_of_matrix().
+[[nodiscard]] int matrix_work(const std::vector<Kernel>& kernels, const ArrayMatrix& matrix,
+                              bool reduced, NumbersOf numbers);
 
 }  // namespace hamgen

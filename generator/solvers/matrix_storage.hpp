@@ -20,14 +20,17 @@ struct ArrayMatrix {
   int bandwidth = 0;
   int arrays = 1;
   bool folded = false;
+  int alone = 0;           // behind the arrays so many have no neighbours, and stay there
   bool symmetric = false;  // a band, whatever the state
   // Of trajectories in lanes: it is eliminated without Eigen; does it serve over many steps?
   bool in_lanes = false;
   bool kept = false;
   [[nodiscard]] bool in_natural_order() const { return arrays == 1 && !folded; }
+  [[nodiscard]] int length() const { return (size - alone) / arrays; }  // of each array
   // Where this unknown stands.
   [[nodiscard]] int row(int unknown) const {
-    const int length = size / arrays;
+    const int length = this->length();
+    if (unknown >= arrays * length) return unknown;
     const int element = unknown % length;
     const bool second_half = 2 * element >= length;
     const int place = !folded       ? element

@@ -45,8 +45,7 @@ bool has_diagonal_kinetic_energy(const Mechanics& mechanics) {
   });
 }
 
-// d2H/dp_i^2 if it is the same for all i.
-std::optional<Expression> uniform_mass(const Mechanics& mechanics) {
+std::optional<Expression> uniform_mass(const Mechanics& mechanics, bool apart_from_time) {
   const int n = mechanics.degrees_of_freedom;
   std::vector<Expression> masses(static_cast<std::size_t>(n));
   for (const Kernel& kernel : mechanics.kernels) {
@@ -73,6 +72,7 @@ std::optional<Expression> uniform_mass(const Mechanics& mechanics) {
       });
     }
   }
+  if (apart_from_time && mechanics.has_time) masses.pop_back();
   const bool same =
       std::ranges::all_of(masses, [&](const Expression& m) { return m == masses[0]; });
   return same ? std::optional(masses[0]) : std::nullopt;
@@ -136,6 +136,23 @@ bool iterates(const ArrayPlan& plan) {
          plan.method == ArrayMethod::both;
 }
 
+bool knows_time(const Mechanics& mechanics, const FamilyParameters& member) {
+  return mechanics.has_time && member.gamma.is_zero();
+}
+
+std::vector<Kernel> kernels_of_matrix(const Mechanics& mechanics, const FamilyParameters& member) {
+  std::vector<Kernel> kernels = mechanics.kernels;
+  if (!knows_time(mechanics, member)) return kernels;
+  const AffineIndex time{.constant = mechanics.degrees_of_freedom - 1, .factors = {}};
+  for (Kernel& kernel : kernels) {
+    const auto is_time = [&](std::size_t slot) { return kernel.slots[slot].position == time; };
+    std::erase_if(kernel.hessian, [&](const auto& entry) {
+      return is_time(entry.first.first) || is_time(entry.first.second);
+    });
+  }
+  return kernels;
+}
+
 bool uses_eigen(const ArrayPlan& plan) {
   return plan.matrix && (plan.matrix->kind == MatrixKind::eigen_dense ||
                          plan.matrix->kind == MatrixKind::eigen_sparse);
@@ -167,8 +184,7 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, Nu
           "--solver newton: H is a function of sums over all elements, whose second derivatives "
           "are not made\nhelp: --solver fixed-point");
     if (wish.kind != Wish::fixed_point && !of_sums)
-      arrays.matrix =
-          choose_matrix(mechanics, member, arrays.reduced, arrays.mass.has_value(), eigen);
+      arrays.matrix = choose_matrix(mechanics, member, arrays.reduced, eigen);
     if (wish.kind == Wish::newton && !arrays.matrix)
       throw UsageError(
           fmt::format("--solver newton: a matrix of {} rows like this one is eliminated by Eigen, "
@@ -178,7 +194,8 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, Nu
       arrays.method = ArrayMethod::fixed_point;
     } else {
       arrays.constant_matrix = has_constant_hessian(mechanics);
-      arrays.matrix_work = matrix_work(mechanics, *arrays.matrix, arrays.reduced, numbers);
+      arrays.matrix_work = matrix_work(kernels_of_matrix(mechanics, member), *arrays.matrix,
+                                       arrays.reduced, numbers);
       const bool either = wish.kind == Wish::cheapest && !arrays.constant_matrix;
       if (either && arrays.matrix_work > 1) arrays.method = ArrayMethod::both;
     }

@@ -87,6 +87,13 @@ enum class NumbersOf { processor, library };
 [[nodiscard]] bool uses_eigen(const ArrayPlan& plan);
 // Is there an iteration, with start values from earlier steps?
 [[nodiscard]] bool iterates(const ArrayPlan& plan);
+// Of sums that are loops: is tbar = t + h alpha no matter of an iteration?  Then Newton's matrix is
+// without what the other equations have of it, and without the row of p_t, which no equation has:
+// what couples to them couples to every element, and would make it wide.
+[[nodiscard]] bool knows_time(const Mechanics& mechanics, const FamilyParameters& member);
+// With the second derivatives that the matrix is made of.
+[[nodiscard]] std::vector<Kernel> kernels_of_matrix(const Mechanics& mechanics,
+                                                    const FamilyParameters& member);
 // Of a splitting or a Runge-Kutta method.
 [[nodiscard]] SolvePlan plan_without_member(const StepEquations& equations,
                                             const SolverChoice& solver);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "generator/equations/step_equations.hpp"
+#include "generator/solvers/solve_plan.hpp"
 #include "generator/verify/emitted.hpp"
 
 namespace hamgen {
@@ -89,6 +90,7 @@ class LoopHessianClaims {
     identities_.claims.push_back({std::move(what), emitted, expected});
   }
 
+  // Where tbar is known, without what moves with it and without the row of p_t.
   // With the momenta torn out, pbar = (p - h (1 - alpha) V_q - h beta d)/(1 + h beta m), that of
   //   qbar - q - h alpha T_p(pbar) - h gamma V_q(qbar);
   // else I - h (I/2 + C) J H''.
@@ -96,6 +98,8 @@ class LoopHessianClaims {
     const auto& [alpha, beta, gamma] = member_;
     const Expression h = step_size();
     const Expression unit(i == j ? 1 : 0);
+    const int time = n_ - 1;
+    if (knows_time(step_.mechanics, member_) && (j == time || i % n_ == time)) return unit;
     if (reduced_) {
       const Expression own = derivatives_.second(n_ + i, n_ + i);
       const Expression slope = -(h * (Expression(1) - alpha)) / (Expression(1) + h * beta * own);

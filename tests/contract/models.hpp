@@ -144,6 +144,22 @@ H = sum(i = 1..N, p[i]^2/2 + exp(q[i] - q[i+1]))
 scene waves { q[i] = 1e-9*sin(i^2); p[i] = 1e-9*cos(3*i^2); h = 0.05; steps = 60 }
 scene tiny { q[i] = 1e-13*sin(i^2); p[i] = 1e-13*cos(3*i^2); h = 0.2; steps = 30 }
 )"},
+    // What all elements have to do with: t, and a wave.
+    SteepModel{"driven_ring", R"(size N = 24
+coordinate q[1..N] periodic
+momentum p[1..N]
+time t
+parameter m[1..N] = 1
+H = sum(i = 1..N, p[i]^2/(2*m[i]) + (1 + 0.4*cos(2*t))*(q[i+1] - q[i])^2/2 + q[i]^4/4 - sin(t)*q[i])
+scene even { q[i] = sin(i^2); h = 0.1; steps = 100 }
+scene heavy { m[1] = 9; m[7] = 1/9; q[i] = sin(i^2); h = 0.1; steps = 100 }
+)"},
+    SteepModel{"wave_and_particles", R"(size N = 24
+coordinate x[1..N], f
+momentum v[1..N], J
+H = sum(i = 1..N, v[i]^2/2) + J/2 + 0.2*sqrt(J)*sum(i = 1..N, cos(x[i] - f))
+scene beam { x[i] = 0.26*i; v[i] = 0.5 + 0.1*sin(i^2); J = 2; h = 0.2; steps = 100 }
+)"},
     // Beads in a row, of which the first one is thrown at the others.
     SteepModel{"row", R"(coordinate q1, q2, q3, q4
 momentum p1, p2, p3, p4

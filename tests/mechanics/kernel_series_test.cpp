@@ -40,6 +40,11 @@ const std::string kLadder =
     "H = (sum(i = 1..N, px[i]^2 + py[i-1]^2)/2 + sum(i = 1..N-2, (x[i+2] - x[i])^3)"
     " + sum(i = 1..N, (x[i] - y[N-i])^3) + x[1]^2*y[0])\n";
 
+// t in every summand of a sum, and what it drives.
+const std::string kDriven = kEnds + "time t\nparameter a = 1/2\n" + kQuadratic +
+                            "sum(i = 0..N, (1 + a*cos(t))*(q[i+1] - q[i])^2/2) - t^2*q[2]"
+                            " + sin(t)*sum(i = 1..N, i*q[i]^3 + t*p[i]/5)\n";
+
 struct Asked {
   int order;
   Gauge gauge;
@@ -82,6 +87,8 @@ TEST(KernelSeries, IsTheSeriesWrittenOut) {
     expect_written_out(text, 4, {4, {"1/2", "h/5", "2*h"}});
   }
   expect_written_out(kEnds + kQuadratic + "sum(i = 0..N, (q[i+1] - q[i])^3/3)\n", 6, {6, {}});
+  expect_written_out(kDriven, 4, {4, {}});
+  expect_written_out(kDriven, 5, {3, {"3/10", "1/5", "0"}});
 }
 
 // Down to where both ends meet.

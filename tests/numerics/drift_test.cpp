@@ -269,7 +269,7 @@ TEST(Drift, AFixedPointInFloatIsRefinedFromNearerBy) {
 // Below: whose image its iterate is, rounding has chosen.
 TEST(Drift, AFixedPointInLoopsIsRefinedFromItsIterate) {
   expect_drift_only_with(
-      {{"settled || contraction * 96 <= 1;", "settled || contraction * 32 <= 1;"}},
+      {{"settled || contraction * of_two(96) <= 1;", "settled || contraction * of_two(32) <= 1;"}},
       {.model = ring(30), .request = {.solver = "fixed-point"}, .h = 0.3},
       {.steps = 100'000, .starts = 16});
 }

@@ -341,6 +341,9 @@ TYPED_TEST(Matrices, UnknownsOfSeveralArraysStandElementByElement) {
             (std::vector<int>{0, 2, 4, 3, 1}));
   EXPECT_EQ((rows_of<typename TypeParam::template Order<2, 4, true>>(8)),
             (std::vector<int>{0, 4, 6, 2, 1, 5, 7, 3}));
+  // What is behind the arrays stays there.
+  EXPECT_EQ((rows_of<typename TypeParam::template Order<2, 3, false>>(7)),
+            (std::vector<int>{0, 2, 4, 1, 3, 5, 6}));
 }
 
 // Folded flat it has its neighbours within two places: 0, 7, 1, 6, 2, 5, 3, 4.

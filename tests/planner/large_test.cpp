@@ -98,6 +98,53 @@ TEST(LargePlan, NewtonStandsBehindTheFixedPointUnlessItIsAskedFor) {
   EXPECT_TRUE(contains(coupled.header, "WaitingNewtonRule<2, 60> newton_rule;"));
 }
 
+// tbar is known, so that the matrix has nothing of it, and stays as narrow as that of the chain.
+TEST(LargePlan, TimeIsNoMatterOfTheMatrix) {
+  const auto driven = [](const std::string& before) {
+    return "size N = 40\ncoordinate " + before +
+           "q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\ntime t\n";
+  };
+  const std::string h =
+      "H = sum(i = 1..N, p[i]^2/2 - cos(t)*q[i]) + sum(i = 0..N, (2 + sin(t))*(q[i+1] - q[i])^4)";
+  const Outcome chain = outcome(driven("") + h + "\n");
+  EXPECT_TRUE(contains(chain.plan, "banded Newton of size 41")) << chain.plan;
+  EXPECT_TRUE(contains(chain.header, "using Matrix = SymmetricBandMatrix<41, 1>;"));
+  const Outcome raised = outcome(driven("") + h + "\n", {.order = 4});
+  EXPECT_TRUE(contains(raised.plan, "banded Newton of size 82")) << raised.plan;
+  // The elements of two arrays take turns, and t is behind them.
+  const Outcome two = outcome(driven("x[1..N], ") + "momentum y[1..N]\n" + h +
+                              " + sum(i = 1..N, y[i]^2/2 + (x[i] - q[i])^4/4)\n");
+  EXPECT_TRUE(contains(two.header, "ElementOrder<2, 40, false>")) << two.plan;
+  // Where gamma moves t it is an unknown like any other.
+  const Outcome moved = outcome(driven("") + h + "\n", {.gamma = "h/9"});
+  EXPECT_FALSE(contains(moved.plan, "banded")) << moved.plan;
+}
+
+// What stands still in a loop is computed before it, and what is added to one element behind it.
+TEST(LargePlan, WhatTimeAloneMovesIsComputedBeforeTheLoop) {
+  const std::string slopes =
+      function_text(outcome("size N = 40\ncoordinate q[1..N]\nmomentum p[1..N]\ntime t\n"
+                            "H = sum(i = 1..N, p[i]^2/2 + q[i]^4/4 - cos(3*t)*i*q[i])\n")
+                        .header,
+                    "void potential_gradient(");
+  const std::size_t loop = slopes.find("for (int i = 1; i <= 40; ++i)");
+  ASSERT_NE(loop, std::string::npos) << slopes;
+  EXPECT_LT(slopes.find("std::cos("), loop) << slopes;
+  EXPECT_LT(slopes.find("std::sin("), loop) << slopes;
+  const std::size_t sum = slopes.find("dq[40] += sum_of_dq_40;");
+  EXPECT_NE(sum, std::string::npos) << slopes;
+  EXPECT_GT(sum, loop) << slopes;
+}
+
+// One coordinate that all others have to do with.
+TEST(LargePlan, AWaveAndItsParticlesStayLoopsButAtAHigherOrder) {
+  const std::string wave =
+      "size N = 24\ncoordinate x[1..N], f\nmomentum v[1..N], J\n"
+      "H = sum(i = 1..N, v[i]^2/2) + J/2 + sqrt(J)*sum(i = 1..N, cos(x[i] - f))/9\n";
+  EXPECT_TRUE(contains(outcome(wave).plan, "stay loops"));
+  EXPECT_FALSE(contains(outcome(wave, {.order = 4}).plan, "stay loops"));
+}
+
 // What its matrix costs a ring of rotators, in evaluations of its equations.
 int work_of(const std::string& potential, const Request& request) {
   const std::string header = outcome(

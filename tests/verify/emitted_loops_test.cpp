@@ -37,6 +37,12 @@ const std::string kCoupledRing =
     "size N = 25\ncoordinate q[1..N] periodic\nmomentum p[1..N]\n"
     "H = sum(i = 1..N, p[i]^2/2 + p[i]*q[i]*q[i+1] + (q[i+1] - q[i])^4/4)\n";
 
+// t in all summands.
+const std::string kDriven =
+    "size N = 24\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\ntime t\n"
+    "parameter m[1..N] = 2\nH = sum(i = 1..N, p[i]^2/(2*m[i]) - cos(t)*q[i])"
+    " + sum(i = 0..N, (1 + t)*(q[i+1] - q[i])^4/4)\n";
+
 // Linear equations, with the momenta torn out and without.
 const std::string kSprings =
     "size N = 25\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
@@ -92,7 +98,7 @@ LoopsUnderTest loops_of(const std::string& text) {
 }
 
 TEST(EmittedLoops, AreTheMathematics) {
-  for (const std::string& text : {kChain, kCoupledRing, kRotators}) {
+  for (const std::string& text : {kChain, kCoupledRing, kRotators, kDriven}) {
     const auto [mechanics, hamiltonian] = loops_of(text);
     ASSERT_TRUE(mechanics.keeps_sums());
     for (const Loops& c : loops(mechanics)) {
@@ -133,6 +139,7 @@ int refuted_mutants(const std::vector<std::string>& texts) {
 
 TEST(EmittedLoops, EveryMutationIsRefuted) {
   EXPECT_GE(refuted_mutants({kChain, kCoupledRing}), 20);
+  EXPECT_GE(refuted_mutants({kDriven}), 8);
 }
 
 TEST(EmittedLoops, LinearEquationsAreTheMathematicsAndNoMutantIs) {
