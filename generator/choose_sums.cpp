@@ -51,12 +51,13 @@ long work(const Mechanics& mechanics) {
   return operations_per_step(plan) + kWaiting * rows_eliminated(plan);
 }
 
-// Does a variable that is no array, and not t, stand in every summand of a sum?
-bool couples_all_by_one(const Mechanics& mechanics) {
+// Does a variable that is no array stand in every summand of a sum?  t does not count unless the
+// method moves it by forces.
+bool couples_all_by_one(const Mechanics& mechanics, bool moves_time) {
   const AffineIndex time{.constant = mechanics.degrees_of_freedom - 1, .factors = {}};
   return std::ranges::any_of(mechanics.kernels, [&](const Kernel& kernel) {
     return std::ranges::any_of(kernel.slots, [&](const Slot& slot) {
-      const bool is_time = mechanics.has_time && slot.position == time;
+      const bool is_time = mechanics.has_time && !moves_time && slot.position == time;
       return is_fixed(kernel, slot) && !is_time && slot.symbol.find('[') == std::string::npos;
     });
   });
@@ -85,8 +86,11 @@ std::string wish_for_all_second_derivatives(const Request& request) {
 }
 
 Mechanics derive_for(const Request& request, const Model& model, bool keep_sums, int most) {
+  keep_sums = keep_sums && request.format->format->takes_loops;
   Mechanics mechanics = derive(model, keep_sums, most);
-  if (request.order > 0 && couples_all_by_one(mechanics)) return derive(model, false, most);
+  const bool moves_time = !request.gamma.empty() || !request.gauge.empty();
+  if (request.order > 0 && couples_all_by_one(mechanics, moves_time))
+    return derive(model, false, most);
   if (mechanics.sums.empty() || wish_for_all_second_derivatives(request).empty()) return mechanics;
   return derive(model, false, most);
 }

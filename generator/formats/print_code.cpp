@@ -28,6 +28,10 @@ RoutinePrinter::RoutinePrinter(CodeWriter& out, const Routine& routine, const Di
     names_.reserve(local);
   }
   for (const std::string& taken : dialect.taken_names()) names_.reserve(taken);
+  // Of a system in loops the length of its arrays, and the type of its matrix.
+  if (dialect.n > 0) {
+    for (const char* global : {"n", "Matrix"}) names_.reserve(global);
+  }
   name_objects();
 }
 

@@ -186,9 +186,24 @@ bool is_plain(const std::string& symbol, const std::string& index) {
          rest.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
-}  // namespace
+bool is_polynomial_in_elements(const Kernel& kernel) {
+  const std::set<std::string> beyond = non_polynomial_symbols(kernel.value);
+  return std::ranges::none_of(varying_symbols(kernel),
+                              [&](const auto& symbol) { return beyond.contains(symbol); });
+}
 
-std::vector<Kernel> gathered(const Kernel& kernel) {
+// What is summed up for one element, each summand waiting for the one before, in a loop of its own:
+// the others are computed in lanes without it.  Functions are computed once.
+std::vector<Kernel> sums_apart(const Kernel& kernel) {
+  if (kernel.ranges.size() != 1 || !is_polynomial_in_elements(kernel)) return {kernel};
+  Kernel elements = kernel;
+  Kernel sums = kernel;
+  for (std::size_t s = 0; s < kernel.slots.size(); ++s)
+    (is_fixed(kernel, kernel.slots[s]) ? elements : sums).gradient[s] = Expression(0);
+  return {elements, sums};
+}
+
+std::vector<Kernel> gathered_alone(const Kernel& kernel) {
   if (!is_chain(kernel)) return {kernel};
   const std::string& index = kernel.ranges.front().index;
   const auto plain = [&](const auto& slot) { return is_plain(slot.symbol, index); };
@@ -198,11 +213,23 @@ std::vector<Kernel> gathered(const Kernel& kernel) {
   const std::optional<std::vector<long>> found = offsets(kernel);
   if (!found || std::ranges::none_of(*found, [](long offset) { return offset > 0; }))
     return {kernel};
-  const long most = is_polynomial(kernel) ? kCheapPolynomial : kCheap;
+  const long most = is_polynomial_in_elements(kernel) ? kCheapPolynomial : kCheap;
   const bool cheap = operation_count(kernel.gradient, varying_symbols(kernel)) <= most;
   const long length = kernel.ranges.front().upper.constant - kernel.ranges.front().lower.constant;
   if (!cheap || length <= 2 * kFarthest) return {kernel};
   return Gathering(kernel, *found).run();
+}
+
+}  // namespace
+
+std::vector<Kernel> gathered(const Kernel& kernel) {
+  std::vector<Kernel> result;
+  for (const Kernel& part : sums_apart(kernel)) {
+    const bool has_slope = std::ranges::any_of(
+        part.gradient, [](const Expression& slope) { return !slope.is_zero(); });
+    if (has_slope) std::ranges::move(gathered_alone(part), std::back_inserter(result));
+  }
+  return result;
 }
 
 }  // namespace hamgen

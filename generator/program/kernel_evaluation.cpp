@@ -5,6 +5,7 @@
 #include <string>
 
 #include "generator/program/lower.hpp"
+#include "generator/program/names.hpp"
 
 namespace hamgen {
 
@@ -27,6 +28,20 @@ KernelEvaluation evaluate(const Kernel& kernel, const std::vector<Expression>& v
   lowering.run();
   KernelEvaluation result{{.statements = lowering.statements(1)}, lowering.statements(0)};
   for (const std::size_t handle : handles) result.results.push_back(lowering.wanted(handle));
+  return result;
+}
+
+std::string loop_index(const Routine& routine, const std::string& name) {
+  const bool taken =
+      name == "n" || name == "sum" ||
+      std::ranges::find(routine.arguments, name, &Argument::name) != routine.arguments.end();
+  return taken ? name + "_index" : identifier(name);
+}
+
+AffineIndex renamed(const Routine& routine, const AffineIndex& index) {
+  AffineIndex result{index.constant, {}};
+  for (const auto& [name, factor] : index.factors)
+    result.factors[loop_index(routine, name)] = factor;
   return result;
 }
 

@@ -1,10 +1,12 @@
 // What an instance of a kernel computes, and what is the same for all of them.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "generator/mechanics/kernel.hpp"
 #include "generator/program/lowered_step.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -16,5 +18,9 @@ struct KernelEvaluation : Evaluation {
 // where there are such elements.
 [[nodiscard]] KernelEvaluation evaluate(const Kernel& kernel, const std::vector<Expression>& values,
                                         const Substitution& indices);
+
+// A loop's index: the user's name, unless the routine has something of that name.
+[[nodiscard]] std::string loop_index(const Routine& routine, const std::string& name);
+[[nodiscard]] AffineIndex renamed(const Routine& routine, const AffineIndex& index);
 
 }  // namespace hamgen

@@ -153,7 +153,14 @@ class KernelRoutine {
           body.push_back({Let{symbol, result}});
           ++named;
         }
-        for (Instruction& instruction : used) body.push_back(std::move(instruction));
+        for (Instruction& instruction : used) {
+          const auto* sum = std::get_if<Accumulate>(&instruction.value);
+          if (sum != nullptr && stands_still(kernel, sum->symbol)) {
+            sum_up(sum->symbol, sum->value, body);
+          } else {
+            body.push_back(std::move(instruction));
+          }
+        }
       }
     });
     return std::move(routine_);
@@ -222,21 +229,8 @@ class KernelRoutine {
     return symbol;
   }
 
-  // A loop's index: the user's name, unless the routine has something of that name.
-  [[nodiscard]] std::string loop_index(const std::string& name) const {
-    const bool taken =
-        name == "n" || name == "sum" ||
-        std::ranges::find(routine_.arguments, name, &Argument::name) != routine_.arguments.end();
-    return taken ? name + "_index" : identifier(name);
-  }
-  [[nodiscard]] AffineIndex renamed(const AffineIndex& index) const {
-    AffineIndex result{index.constant, {}};
-    for (const auto& [name, factor] : index.factors) result.factors[loop_index(name)] = factor;
-    return result;
-  }
-
   [[nodiscard]] AffineIndex position(const Slot& slot) const {
-    AffineIndex result = renamed(slot.position);
+    AffineIndex result = renamed(routine_, slot.position);
     if (slot.is_momentum) result.constant -= n_;
     return result;
   }
@@ -267,6 +261,14 @@ class KernelRoutine {
     return !kernel.ranges.empty() && !slot.position.factors.contains(kernel.ranges.back().index);
   }
 
+  // Is it an element that the innermost loop leaves where it is?
+  [[nodiscard]] bool stands_still(const Kernel& kernel, const std::string& element) const {
+    if (kernel.ranges.empty()) return false;
+    const std::string index = loop_index(routine_, kernel.ranges.back().index);
+    return std::ranges::none_of(routine_.places.at(element).indices, [&](const AffineIndex& each) {
+      return each.factors.contains(index);
+    });
+  }
   // An element that stands still in the innermost loop is summed up in a local around that.
   void sum_up(const std::string& element, const Expression& value, Body& body) {
     const std::string sum = fmt::format("sum of {}", element);
@@ -288,7 +290,7 @@ class KernelRoutine {
     for (const Expression& value : values) collect_symbols(value, used);
     Substitution indices;
     for (const KernelRange& range : kernel.ranges) {
-      const std::string index = loop_index(range.index);
+      const std::string index = loop_index(routine_, range.index);
       const std::string symbol = "index(" + index + ")";
       bind(symbol, {.object = {}, .indices = {{0, {{index, 1}}}}});
       indices.emplace(range.index, Expression::symbol(symbol, kRankOfParameter));
@@ -296,7 +298,7 @@ class KernelRoutine {
     for (const ParameterSlot& slot : kernel.parameters) {
       bind(slot.symbol, {.object = "par",
                          .field = member_identifier(slot.parameter),
-                         .indices = {renamed(slot.position)}});
+                         .indices = {renamed(routine_, slot.position)}});
     }
     std::set<std::string> loaded;
     for (const Slot& slot : kernel.slots) {
@@ -329,9 +331,9 @@ class KernelRoutine {
       }
       for (auto range = kernel.ranges.rbegin(); range != kernel.ranges.rend(); ++range) {
         Body outer = std::exchange(before_, {});
-        outer.push_back(
-            {For{{loop_index(range->index), renamed(range->lower), renamed(range->upper)},
-                 std::move(body)}});
+        outer.push_back({For{{loop_index(routine_, range->index), renamed(routine_, range->lower),
+                              renamed(routine_, range->upper)},
+                             std::move(body)}});
         std::ranges::move(std::exchange(after_, {}), std::back_inserter(outer));
         for (Instruction& instruction : outer) {
           if (!std::holds_alternative<For>(instruction.value))
@@ -365,11 +367,6 @@ class KernelRoutine {
 };
 
 }  // namespace
-
-std::string energy_remark(const Mechanics& mechanics) {
-  return mechanics.has_time ? "H(q, p, t) + p_t, which is constant where H(q, p, t) is not."
-                            : "H(q, p).";
-}
 
 Routine kernel_energy(const Environment& environment, const Mechanics& mechanics) {
   return KernelRoutine(environment, mechanics, Part::all).energy();

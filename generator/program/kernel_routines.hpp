@@ -17,7 +17,10 @@ namespace hamgen {
 enum class Part { all, potential, kinetic };
 
 // What is said of the routine `energy`.
-[[nodiscard]] std::string energy_remark(const Mechanics& mechanics);
+[[nodiscard]] inline std::string energy_remark(const Mechanics& mechanics) {
+  return mechanics.has_time ? "H(q, p, t) + p_t, which is constant where H(q, p, t) is not."
+                            : "H(q, p).";
+}
 [[nodiscard]] Routine kernel_energy(const Environment& environment, const Mechanics& mechanics);
 [[nodiscard]] Routine kernel_gradient(const Environment& environment, const Mechanics& mechanics,
                                       std::string name, Part part, bool in_parts);

@@ -107,8 +107,9 @@ class LoopMember : LoopStage {
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
     if (fixed_point() || both()) {
-      // Where q waits for p, and p for q, two increments are compared.
-      const auto* contraction = arrays_.reduced ? "ContractionRule<1>" : "ContractionRule<2>";
+      // Of two increments where q and p wait for each other, or all for how t is rounded.
+      const bool waits = !arrays_.reduced || knows_time(mechanics_, weights_.member);
+      const auto* contraction = waits ? "ContractionRule<2>" : "ContractionRule<1>";
       start.fields.push_back(
           {.name = "rule", .type = settles() ? contraction : std::string(plan_.rule)});
       start.fields.push_back(
@@ -201,17 +202,6 @@ class LoopMember : LoopStage {
     b.body().push_back({Sweep{.count = *plan_.sweeps, .unknowns = {}, .body = std::move(sweep)}});
   }
 
-  // zbar = z, as far as it is unknown.
-  [[nodiscard]] Body from_state(RoutineBuilder& b) const {
-    Body copy;
-    const Expression q = state(b, "z", "q");
-    copy.push_back({Assign{coordinate(b).name(), q}});
-    if (!arrays_.reduced) {
-      const Expression p = state(b, "z", "p");
-      copy.push_back({Assign{momentum(b).name(), p}});
-    }
-    return {for_each(elements(), std::move(copy))};
-  }
   void add_start(RoutineBuilder& b) const {
     b.body().push_back({If{{"start", "known"}, false, from_state(b)}});
     add_rounded_state(b);

@@ -64,6 +64,18 @@ Expression LoopStage::momentum(RoutineBuilder& b) const {
                          : b.at("start", "value", {affine("i", n_)});
 }
 
+Body LoopStage::from_state(RoutineBuilder& b) const {
+  Body copy{{Assign{coordinate(b).name(), state(b, "z", "q")}}};
+  if (!arrays_.reduced) copy.push_back({Assign{momentum(b).name(), state(b, "z", "p")}});
+  Body all{for_each(elements(), std::move(copy))};
+  if (!knows_time(mechanics_, weights_.member) || !weights_.q_by_p) return all;
+  weights_.bind(b.routine());
+  const Expression t = b.at("start", "value", {affine(n_ - 1)});
+  const Expression moved = b.at("carry", "q", {affine(n_ - 1)}) + *weights_.q_by_p;
+  all.push_back({Assign{t.name(), b.at("z", "q", {affine(n_ - 1)}) + moved}});
+  return all;
+}
+
 void LoopStage::add_rounded_state(RoutineBuilder& b) const {
   if (!beside_) return;
   add_rounding(b, *beside_,
@@ -194,9 +206,12 @@ Routine LoopStage::differentiate() const {
   if (uses_h()) list.push_back({.name = "h"});
   list.push_back({.name = "at", .sizes = {unknowns()}, .decays = true});
   list.push_back({.name = "matrix", .record = "Matrix", .changes = true});
-  RoutineBuilder b({.name = "differentiate",
-                    .remark = {"The derivative of the equations' residual, q first, at a stage."},
-                    .arguments = std::move(list)});
+  RoutineBuilder b(
+      {.name = "differentiate",
+       .remark = {"The derivative of the equations' residual, q first, at a stage" +
+                  std::string(knows_time(mechanics_, weights_.member) ? ", as if t were a number."
+                                                                      : ".")},
+       .arguments = std::move(list)});
   b.body().push_back({Clear{{"matrix"}}});
   Body one{{Put{{"matrix"}, affine("i"), affine("i"), Expression(1)}}};
   b.body().push_back(for_each(counting("i", unknowns()), std::move(one)));

@@ -119,6 +119,8 @@ class LoopStage {
   // With the momenta torn out the derivative is I + D V'', else I - h (I/2 + C) J H''.
   [[nodiscard]] Routine differentiate() const;
   void add_rounded_state(RoutineBuilder& b) const;
+  // zbar = z, as far as it is unknown, and t at the stage where that is known.
+  [[nodiscard]] Body from_state(RoutineBuilder& b) const;
   // An element of what the state is rounded with, z or start.beside.
   [[nodiscard]] Expression rounded_with(RoutineBuilder& b, bool momentum) const;
   // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.

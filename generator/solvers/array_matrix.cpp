@@ -104,7 +104,7 @@ std::optional<ArrayMatrix> choose_matrix(const Mechanics& mechanics, const Famil
       filled[static_cast<std::size_t>(row) * rows + static_cast<std::size_t>(column)] = true;
   });
   const ArrayMatrix best = *std::ranges::min_element(orders, {}, &ArrayMatrix::bandwidth);
-  const bool is_constant = has_constant_hessian(mechanics);
+  const bool is_constant = has_constant_matrix(mechanics, member);
   const bool is_narrow = 4 * best.bandwidth < size;
   if (is_narrow && best.bandwidth <= (is_constant ? kWidestConstantBand : kWidestBand)) return best;
   if (!eigen) {

@@ -13,8 +13,8 @@ namespace hamgen {
                                                        const FamilyParameters& member, bool reduced,
                                                        bool eigen);
 
-// Of sums that are loops: is H quadratic?
-[[nodiscard]] bool has_constant_hessian(const Mechanics& mechanics);
+// Of sums that are loops: is H quadratic, for every t where that is known?
+[[nodiscard]] bool has_constant_matrix(const Mechanics& mechanics, const FamilyParameters& member);
 // Of sums that are loops: is the kinetic energy a sum of squares of momenta?
 [[nodiscard]] bool has_diagonal_kinetic_energy(const Mechanics& mechanics);
 // d^2 H/dp_i^2 then, if it is the same for all i; p_t may be `apart`, which has none.

@@ -19,11 +19,22 @@ bool is_constant(const Kernel& kernel, const Expression& e) {
                               [&](const Slot& slot) { return used.contains(slot.symbol); });
 }
 
-// Is the kernel a polynomial of degree two in the state?
+// Is the kernel a polynomial of degree two in the state, or in what the slots `counts` are?
+template <class Counts>
+bool has_constant_hessian(const Kernel& kernel, const Counts& counts) {
+  const std::set<std::string> beyond = non_polynomial_symbols(kernel.value);
+  return std::ranges::none_of(
+             kernel.slots,
+             [&](const Slot& slot) { return counts(slot) && beyond.contains(slot.symbol); }) &&
+         std::ranges::all_of(kernel.hessian,
+                             [&](const auto& entry) { return is_constant(kernel, entry.second); });
+}
 bool has_constant_hessian(const Kernel& kernel) {
-  return is_polynomial(kernel) && std::ranges::all_of(kernel.hessian, [&](const auto& entry) {
-           return is_constant(kernel, entry.second);
-         });
+  return has_constant_hessian(kernel, [](const Slot&) { return true; });
+}
+
+AffineIndex place_of_time(const Mechanics& mechanics) {
+  return {.constant = mechanics.degrees_of_freedom - 1, .factors = {}};
 }
 
 bool has_diagonal_hessian(const Kernel& kernel) {
@@ -33,9 +44,14 @@ bool has_diagonal_hessian(const Kernel& kernel) {
 
 }  // namespace
 
-bool has_constant_hessian(const Mechanics& mechanics) {
-  return std::ranges::all_of(mechanics.kernels,
-                             [](const Kernel& kernel) { return has_constant_hessian(kernel); });
+bool has_constant_matrix(const Mechanics& mechanics, const FamilyParameters& member) {
+  const bool apart = knows_time(mechanics, member);
+  const auto counts = [&](const Slot& slot) {
+    return !apart || slot.position != place_of_time(mechanics);
+  };
+  return std::ranges::all_of(kernels_of_matrix(mechanics, member), [&](const Kernel& kernel) {
+    return has_constant_hessian(kernel, counts);
+  });
 }
 
 bool has_diagonal_kinetic_energy(const Mechanics& mechanics) {
@@ -143,7 +159,7 @@ bool knows_time(const Mechanics& mechanics, const FamilyParameters& member) {
 std::vector<Kernel> kernels_of_matrix(const Mechanics& mechanics, const FamilyParameters& member) {
   std::vector<Kernel> kernels = mechanics.kernels;
   if (!knows_time(mechanics, member)) return kernels;
-  const AffineIndex time{.constant = mechanics.degrees_of_freedom - 1, .factors = {}};
+  const AffineIndex time = place_of_time(mechanics);
   for (Kernel& kernel : kernels) {
     const auto is_time = [&](std::size_t slot) { return kernel.slots[slot].position == time; };
     std::erase_if(kernel.hessian, [&](const auto& entry) {
@@ -193,7 +209,7 @@ SolvePlan plan_arrays(const StepEquations& equations, const SolverWish& wish, Nu
     if (!arrays.matrix) {
       arrays.method = ArrayMethod::fixed_point;
     } else {
-      arrays.constant_matrix = has_constant_hessian(mechanics);
+      arrays.constant_matrix = has_constant_matrix(mechanics, member);
       arrays.matrix_work = matrix_work(kernels_of_matrix(mechanics, member), *arrays.matrix,
                                        arrays.reduced, numbers);
       const bool either = wish.kind == Wish::cheapest && !arrays.constant_matrix;

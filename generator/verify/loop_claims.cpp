@@ -92,6 +92,13 @@ class LoopMemberClaims {
            (Expression(1) + h * beta * mass(i - n_));
   }
 
+  // The state, and t at the stage where that is known: dH/dp_t is 1.
+  Expression start(int i) const {
+    const Expression z = step_.mechanics.variable(i);
+    if (!knows_time(step_.mechanics, member_) || i != n_ - 1 || member_.alpha.is_zero()) return z;
+    return z + step_.carry(i) + step_size() * member_.alpha;
+  }
+
   // z_i + carry_i + h (B g)_i
   Expression row(int i, const std::function<Expression(int)>& g) {
     const auto& [alpha, beta, gamma] = member_;
@@ -243,7 +250,7 @@ class LoopMemberClaims {
       if (!known) return;
       const auto j = static_cast<std::size_t>(place - trace.unknowns.begin());
       increments.push_back(trace.corrections[j]);
-      claim("the start of " + step_.name(i), trace.starts[j], step_.mechanics.variable(i));
+      claim("the start of " + step_.name(i), trace.starts[j], start(i));
     }
     if (trace.rule == Rule::fixed_point) {
       for (int i = 0; i < m; ++i) {

@@ -16,7 +16,9 @@ struct SymbolicMachine::Run {
   Frame& frame;
 
   void operator()(const Let& let) const {
-    frame.locals[let.symbol] = m.define(let.symbol, m.evaluate(frame, let.value));
+    const Expression value = m.evaluate(frame, let.value);
+    frame.added.erase(let.symbol);  // to one of the name that nobody has read
+    frame.locals[let.symbol] = m.define(let.symbol, value);
   }
   void operator()(const Assign& assign) const {
     m.assign(frame, assign.symbol, m.evaluate(frame, assign.value));

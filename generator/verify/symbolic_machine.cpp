@@ -168,6 +168,7 @@ void SymbolicMachine::assign(Frame& frame, const std::string& symbol, const Expr
                              bool by_name) {
   const auto place = frame.routine->places.find(symbol);
   if (place == frame.routine->places.end() || frame.locals.contains(symbol)) {
+    frame.added.erase(symbol);
     frame.locals[symbol] = by_name ? define(symbol, value) : value;
   } else {
     const std::string where = cell(reference(frame, place->second));

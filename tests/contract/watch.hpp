@@ -29,7 +29,7 @@
 // A method without equations is a product of explicit steps: the rounded one is the exact one from
 // a state within rounding,
 //   |Z - Z_quad| <= 16 (|dZ/dz| (eps |z| + 2^-10 eps max |z| + |h J (g - grad H)|) + eps |Z|),
-// where the gradient's error is the worst of five points from z to Z, and the maximum stands for
+// where the gradient's error is the worst of nine points from z to Z, and the maximum stands for
 // those between them.
 //
 // Z_quad is the step in quad by the same code, and not believed: the residual of the equations as
@@ -223,7 +223,8 @@ class Watch {
     const Matrix slope =
         jacobian(z, [&](const Vector& start) { return exact_.step(start, h).end; });
     const Vector rounded = rounding(z, 1.0 / 1024);
-    const Vector error = gradient_error(z, way(z, Z), {0, 0.25, 0.5, 0.75, 1}, h);
+    const Vector error =
+        gradient_error(z, way(z, Z), {0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1}, h);
     Vector bound;
     for (std::size_t k = 0; k < z.size(); ++k) {
       Quad sum = rounding(Z[k]);

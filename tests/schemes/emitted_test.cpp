@@ -333,12 +333,15 @@ TEST_P(Strictly, EmittedSchemesCompileWithoutAWarning) {
     request.scalar = GetParam();
     text += header(model, request, "strict_" + std::to_string(number++));
   };
-  const std::string driven =
-      "system driven\nsize n = 40\ncoordinate q[1..n]\nmomentum p[1..n]\ntime t\n"
-      "H = sum(i = 1..n, p[i]^2/2 - cos(t)*q[i]) + sum(i = 1..n-1, sin(t)*(q[i+1] - q[i])^4/4)\n";
-  for (const Request& request : {Request{.tangent = true}, Request{.solver = "newton"},
-                                 Request{.order = 4}, Request{.scheme = "gauss-4"}})
-    add(driven, request);
+  const auto driven = [](const std::string& more) {
+    return "system driven\nsize N = 40\ncoordinate q[1..N], n\nmomentum p[1..N], k\ntime Matrix\n"
+           "H = sum(i = 1..N, p[i]^2/2 - cos(Matrix)*q[i]" +
+           more + ") + k^2/2 + sum(i = 1..N-1, sin(Matrix)*(q[i+1] - q[i])^4/4) + n^4/4\n";
+  };
+  for (const Request& request :
+       {Request{.tangent = true}, Request{.solver = "newton"}, Request{.scheme = "gauss-4"}})
+    add(driven(" + n*q[i]^2"), request);
+  add(driven(""), {.order = 4});
   for (const std::string& model : {kPendulum, kMixed, loops}) {
     for (const char* name : {"yoshida-4", "gauss-2", "gauss-6", "rk4"})
       add(model, {.scheme = name});
