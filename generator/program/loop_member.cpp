@@ -204,6 +204,7 @@ class LoopMember : LoopStage {
 
   void add_start(RoutineBuilder& b) const {
     b.body().push_back({If{{"start", "known"}, false, from_state(b)}});
+    add_time(b, b.body());
     add_rounded_state(b);
   }
   [[nodiscard]] Body iteration_body(RoutineBuilder& b, bool in_parts) const {
@@ -233,6 +234,7 @@ class LoopMember : LoopStage {
   // at h = 1 drifts by 2e-3 units of rounding a step.
   void add_newton(RoutineBuilder& b) const {
     Body body = iteration_body(b, in_parts());
+    hold_time(b, body);
     add_matrix(body);
     body.push_back({SolveFactorised{{"start", "matrix"}, {"start", "lack"}}});
     IterateArray iterate{.rule = Rule::newton,
@@ -321,6 +323,7 @@ class LoopMember : LoopStage {
     Body between;
     if (arrays_.reduced) {
       between = from_state(b);
+      add_time(b, between);
       between.push_back({SetFlag{{"start", "known"}, false}});
     } else {
       const Expression value = b.at("start", "value", {affine("i")});

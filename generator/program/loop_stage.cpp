@@ -67,13 +67,20 @@ Expression LoopStage::momentum(RoutineBuilder& b) const {
 Body LoopStage::from_state(RoutineBuilder& b) const {
   Body copy{{Assign{coordinate(b).name(), state(b, "z", "q")}}};
   if (!arrays_.reduced) copy.push_back({Assign{momentum(b).name(), state(b, "z", "p")}});
-  Body all{for_each(elements(), std::move(copy))};
-  if (!knows_time(mechanics_, weights_.member) || !weights_.q_by_p) return all;
+  return {for_each(elements(), std::move(copy))};
+}
+
+void LoopStage::add_time(RoutineBuilder& b, Body& body) const {
+  if (!knows_time(mechanics_, weights_.member) || !weights_.q_by_p) return;
   weights_.bind(b.routine());
-  const Expression t = b.at("start", "value", {affine(n_ - 1)});
-  const Expression moved = b.at("carry", "q", {affine(n_ - 1)}) + *weights_.q_by_p;
-  all.push_back({Assign{t.name(), b.at("z", "q", {affine(n_ - 1)}) + moved}});
-  return all;
+  const auto last = affine(n_ - 1);
+  const Expression moved = b.at("carry", "q", {last}) + *weights_.q_by_p;
+  body.push_back({Assign{b.at("start", "value", {last}).name(), b.at("z", "q", {last}) + moved}});
+}
+
+void LoopStage::hold_time(RoutineBuilder& b, Body& body) const {
+  if (!knows_time(mechanics_, weights_.member)) return;
+  body.push_back({Assign{b.at("start", "lack", {affine(n_ - 1)}).name(), 0}});
 }
 
 void LoopStage::add_rounded_state(RoutineBuilder& b) const {

@@ -119,8 +119,15 @@ class LoopStage {
   // With the momenta torn out the derivative is I + D V'', else I - h (I/2 + C) J H''.
   [[nodiscard]] Routine differentiate() const;
   void add_rounded_state(RoutineBuilder& b) const;
-  // zbar = z, as far as it is unknown, and t at the stage where that is known.
+  // zbar = z, as far as it is unknown.
   [[nodiscard]] Body from_state(RoutineBuilder& b) const;
+  // Note [t is given]
+  // Where it is known, tbar is set before an iteration.  What rounding leaves of it the fixed point
+  // tells all equations of; Newton's matrix is without t, and where an element is light what t
+  // moves and the matrix does not see is hundreds of units of its rounding: there t stays what it
+  // is.
+  void add_time(RoutineBuilder& b, Body& body) const;
+  void hold_time(RoutineBuilder& b, Body& body) const;
   // An element of what the state is rounded with, z or start.beside.
   [[nodiscard]] Expression rounded_with(RoutineBuilder& b, bool momentum) const;
   // zbar = z + h (I/2 + C) J grad H, with the gradient at hand.

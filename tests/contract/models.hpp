@@ -160,6 +160,16 @@ momentum v[1..N], J
 H = sum(i = 1..N, v[i]^2/2) + J/2 + 0.2*sqrt(J)*sum(i = 1..N, cos(x[i] - f))
 scene beam { x[i] = 0.26*i; v[i] = 0.5 + 0.1*sin(i^2); J = 2; h = 0.2; steps = 100 }
 )"},
+    // A light bead that a kick brings to rest: its momentum is what cancels, and moves it far.
+    SteepModel{"light_bead", R"(size N = 26
+coordinate q[1..N] with q[0] = 0, q[N+1] = 0
+momentum p[1..N]
+time t
+parameter m[1..N] = 1
+H = sum(i = 1..N, p[i]^2/(2*m[i])) + sum(i = 0..N, (1 + 0.9*cos(30*t))*(q[i+1] - q[i])^2/2 + (q[i+1] - q[i])^4) - 50*sin(40*t)*q[3]
+scene once { q[i] = 3*sin(i); m[3] = 1/1000; t = 0.2; h = 0.3; steps = 1 }
+scene on { q[i] = 3*sin(i); m[3] = 1/10; t = 0.2; h = 0.1; steps = 60 }
+)"},
     // Beads in a row, of which the first one is thrown at the others.
     SteepModel{"row", R"(coordinate q1, q2, q3, q4
 momentum p1, p2, p3, p4
