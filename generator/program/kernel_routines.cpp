@@ -322,6 +322,7 @@ class KernelRoutine {
     for (const Kernel& kernel : kernels_.empty() ? mechanics_.kernels : kernels_) {
       if (!belongs(kernel)) continue;
       Body body;
+      before_.clear();
       add(kernel, body);
       if (body.empty()) continue;
       for (Instruction& instruction : body) instruction.origin.terms = kernel.terms;

@@ -107,9 +107,8 @@ class LoopMember : LoopStage {
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
     if (fixed_point() || both()) {
-      // Of two increments where q and p wait for each other, or all for how t is rounded.
-      const bool waits = !arrays_.reduced || knows_time(mechanics_, weights_.member);
-      const auto* contraction = waits ? "ContractionRule<2>" : "ContractionRule<1>";
+      // Where q waits for p, and p for q, two increments are compared.
+      const auto* contraction = arrays_.reduced ? "ContractionRule<1>" : "ContractionRule<2>";
       start.fields.push_back(
           {.name = "rule", .type = settles() ? contraction : std::string(plan_.rule)});
       start.fields.push_back(
@@ -211,6 +210,7 @@ class LoopMember : LoopStage {
     Body body;
     add_gradient_at_stage(body, in_parts);
     if (!arrays_.reduced) body.push_back(for_each(elements(), lacks(b, slope(b), in_parts)));
+    hold_time(b, body);
     return body;
   }
 
@@ -234,7 +234,6 @@ class LoopMember : LoopStage {
   // at h = 1 drifts by 2e-3 units of rounding a step.
   void add_newton(RoutineBuilder& b) const {
     Body body = iteration_body(b, in_parts());
-    hold_time(b, body);
     add_matrix(body);
     body.push_back({SolveFactorised{{"start", "matrix"}, {"start", "lack"}}});
     IterateArray iterate{.rule = Rule::newton,

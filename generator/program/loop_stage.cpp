@@ -71,16 +71,20 @@ Body LoopStage::from_state(RoutineBuilder& b) const {
 }
 
 void LoopStage::add_time(RoutineBuilder& b, Body& body) const {
-  if (!knows_time(mechanics_, weights_.member) || !weights_.q_by_p) return;
+  if (!knows_time(mechanics_, weights_.member)) return;
   weights_.bind(b.routine());
   const auto last = affine(n_ - 1);
-  const Expression moved = b.at("carry", "q", {last}) + *weights_.q_by_p;
-  body.push_back({Assign{b.at("start", "value", {last}).name(), b.at("z", "q", {last}) + moved}});
+  Expression t = b.at("z", "q", {last});
+  if (weights_.q_by_p) t = t + (b.at("carry", "q", {last}) + *weights_.q_by_p);
+  body.push_back({Assign{b.at("start", "value", {last}).name(), t}});
 }
 
 void LoopStage::hold_time(RoutineBuilder& b, Body& body) const {
   if (!knows_time(mechanics_, weights_.member)) return;
-  body.push_back({Assign{b.at("start", "lack", {affine(n_ - 1)}).name(), 0}});
+  for (const int given : {n_ - 1, 2 * n_ - 1}) {
+    if (given < unknowns())
+      body.push_back({Assign{b.at("start", "lack", {affine(given)}).name(), 0}});
+  }
 }
 
 void LoopStage::add_rounded_state(RoutineBuilder& b) const {

@@ -122,10 +122,10 @@ class LoopStage {
   // zbar = z, as far as it is unknown.
   [[nodiscard]] Body from_state(RoutineBuilder& b) const;
   // Note [t is given]
-  // Where it is known, tbar is set before an iteration.  What rounding leaves of it the fixed point
-  // tells all equations of; Newton's matrix is without t, and where an element is light what t
-  // moves and the matrix does not see is hundreds of units of its rounding: there t stays what it
-  // is.
+  // Where it is known, tbar is set before an iteration and stays what it is, rounded: no equation
+  // lacks anything of it.  Newton's matrix is without it, so that what it would move by, and move,
+  // was hundreds of units of rounding of a light element; and the fixed point took what its
+  // rounding moves, once, in a thousand elements, for a slow contraction.  Nothing depends on p_t.
   void add_time(RoutineBuilder& b, Body& body) const;
   void hold_time(RoutineBuilder& b, Body& body) const;
   // An element of what the state is rounded with, z or start.beside.

@@ -92,10 +92,12 @@ class LoopMemberClaims {
            (Expression(1) + h * beta * mass(i - n_));
   }
 
-  // The state, and t at the stage where that is known: dH/dp_t is 1.
+  // Is it t that is known, or p_t?  Nothing is lacking of these.
+  bool is_given(int i) const { return i % n_ == n_ - 1 && knows_time(step_.mechanics, member_); }
+  // The state, and t at the stage: dH/dp_t is 1.
   Expression start(int i) const {
     const Expression z = step_.mechanics.variable(i);
-    if (!knows_time(step_.mechanics, member_) || i != n_ - 1 || member_.alpha.is_zero()) return z;
+    if (!is_given(i) || i >= n_ || member_.alpha.is_zero()) return z;
     return z + step_.carry(i) + step_size() * member_.alpha;
   }
 
@@ -255,7 +257,7 @@ class LoopMemberClaims {
     if (trace.rule == Rule::fixed_point) {
       for (int i = 0; i < m; ++i) {
         claim("what the equations lack for " + step_.name(i), increments[at(i)],
-              row(i, g) - unknowns[at(i)]);
+              is_given(i) ? Expression(0) : row(i, g) - unknowns[at(i)]);
       }
       claim_refined(machine, trace, g);
       return;
@@ -281,9 +283,8 @@ class LoopMemberClaims {
     const bool linear = has("gradient_error");
     for (int i = 0; i < m; ++i) {
       if (!linear) {
-        const bool given = i == n_ - 1 && knows_time(step_.mechanics, member_);
         claim("what the equations lack for " + step_.name(i), system.right_side.at(at(i)),
-              given ? Expression(0) : row(i, g) - unknowns[at(i)]);
+              is_given(i) ? Expression(0) : row(i, g) - unknowns[at(i)]);
       }
       claim("the increment of the stage value of " + step_.name(i), increments[at(i)],
             system.solution.at(at(i)));
