@@ -67,4 +67,14 @@ Expression Derivatives::second(int i, int j) const {
   return it == hessian_.end() ? Expression(0) : it->second;
 }
 
+std::vector<std::vector<int>> Derivatives::partners() const {
+  std::vector<std::vector<int>> result(gradient_.size());
+  for (const auto& [place, value] : hessian_) {
+    result[static_cast<std::size_t>(place.first)].push_back(place.second);
+    if (place.first != place.second)
+      result[static_cast<std::size_t>(place.second)].push_back(place.first);
+  }
+  return result;
+}
+
 }  // namespace hamgen

@@ -29,6 +29,8 @@ class Derivatives {
   [[nodiscard]] const std::map<std::pair<int, int>, Expression>& hessian() const {
     return hessian_;
   }
+  // Of every component those that the second derivatives couple with it.
+  [[nodiscard]] std::vector<std::vector<int>> partners() const;
 
  private:
   std::vector<Expression> gradient_;

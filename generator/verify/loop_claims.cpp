@@ -32,12 +32,20 @@ class LoopMemberClaims {
         n_(step.mechanics.degrees_of_freedom),
         raised_(step.scheme.member().generating_order > 0),
         reduced_(step.code.routine("evaluate") != nullptr),
-        local_(reduced_ && (!member.beta.is_zero() || !calls_velocity(step))) {}
+        local_(reduced_ && (!member.beta.is_zero() || !calls_velocity(step))),
+        partners_(derivatives.partners()) {}
 
   std::vector<Identities> run() {
-    if (!has("contract")) return {solve_identities({})};
-    // Either may be what a step is solved by.
-    return {solve_identities("newton"), solve_identities("contract")};
+    std::vector<Identities> found;
+    // t is given, wherever an iteration starts.
+    for (const bool known : {false, true}) {
+      if (known && !(is_given(n_ - 1) && !sweeps_)) break;
+      known_ = known;
+      // Either may be what a step is solved by.
+      found.push_back(solve_identities(has("contract") ? "newton" : ""));
+      if (has("contract")) found.push_back(solve_identities("contract"));
+    }
+    return found;
   }
 
  private:
@@ -144,6 +152,9 @@ class LoopMemberClaims {
     }
     if (has("prepare")) machine.run("prepare");
     machine.skip(skipped);
+    machine.set_flag({"start", "known"}, known_);
+    for (int i = 0; known_ && i < (reduced_ ? n_ : 2 * n_); ++i)
+      machine.set({"start", "value", {{i, {}}}}, Expression::symbol("predicted " + step_.name(i)));
     machine.run("solve");
     if (sweeps_) {
       claim_sweeps(machine);
@@ -252,7 +263,7 @@ class LoopMemberClaims {
       if (!known) return;
       const auto j = static_cast<std::size_t>(place - trace.unknowns.begin());
       increments.push_back(trace.corrections[j]);
-      claim("the start of " + step_.name(i), trace.starts[j], start(i));
+      if (!known_ || i == n_ - 1) claim("the start of " + step_.name(i), trace.starts[j], start(i));
     }
     if (trace.rule == Rule::fixed_point) {
       for (int i = 0; i < m; ++i) {
@@ -326,7 +337,7 @@ class LoopMemberClaims {
     const auto& [alpha, beta, gamma] = member_;
     const auto times = [&](int k, const std::function<Expression(int)>& vector) {
       std::vector<Expression> terms;
-      for (const int j : partners_of(k)) terms.push_back(derivatives_.second(k, j) * vector(j));
+      for (const int j : partners_[at(k)]) terms.push_back(derivatives_.second(k, j) * vector(j));
       return Expression::sum(std::move(terms));
     };
     const auto exact = [&](int k) { return times(k, [&](int j) { return point[at(j)]; }); };
@@ -352,18 +363,6 @@ class LoopMemberClaims {
     };
     claim_increments(machine, [&](int k) { return exact(k) + times(k, moved); });
   }
-  // The components that the second derivatives couple with this one.
-  const std::vector<int>& partners_of(int k) {
-    if (partners_.empty()) {
-      partners_.resize(at(2 * n_));
-      for (const auto& [place, value] : derivatives_.hessian()) {
-        partners_[at(place.first)].push_back(place.second);
-        if (place.first != place.second) partners_[at(place.second)].push_back(place.first);
-      }
-    }
-    return partners_[at(k)];
-  }
-
   void claim_refined(SymbolicMachine& machine, const IterationTrace& trace,
                      const std::function<Expression(int)>& g) {
     const bool all = std::ssize(trace.changes) == 2 * n_;
@@ -381,8 +380,9 @@ class LoopMemberClaims {
   const FamilyParameters member_;
   std::optional<int> sweeps_;
   int n_;
-  bool raised_;   // K stands in for H, and so do `derivatives`
-  bool reduced_;  // the momenta are torn out
+  bool known_ = false;  // is the start?
+  bool raised_;         // K stands in for H, and so do `derivatives`
+  bool reduced_;        // the momenta are torn out
   // They depend on dT/dp, which is linear in them then, and is looked into.
   bool local_;  // is dT/dp what the routine itself makes of its momenta?
   std::vector<std::vector<int>> partners_;

@@ -111,6 +111,26 @@ TEST(EmittedLoops, AreTheMathematics) {
   }
 }
 
+// t is held, so that where it begins is where it ends: a prediction will not do.
+TEST(EmittedLoops, TheTimeIsGivenWhereverAnIterationStarts) {
+  const auto [mechanics, hamiltonian] = loops_of(kDriven);
+  const Scheme scheme = uniform(mechanics.degrees_of_freedom, Expression(Rational(1, 2)),
+                                Expression(0), Expression(0));
+  for (const char* solver : {"", "newton", "fixed-point"}) {
+    const LoweredStep lowered = lowered_of(mechanics, scheme, solver);
+    Program code = build_program(lowered);
+    Body& body = std::ranges::find(code.routines, "solve", &Routine::name)->body;
+    const auto start = std::ranges::find_if(
+        body, [](const Instruction& each) { return std::holds_alternative<If>(each.value); });
+    ASSERT_NE(start, body.end());
+    ASSERT_TRUE(std::holds_alternative<Assign>(std::next(start)->value));
+    std::get<If>(start->value).then.push_back(std::move(*std::next(start)));
+    body.erase(std::next(start));
+    const Finding finding = prove_emitted(mechanics, scheme, lowered.plan, code, hamiltonian);
+    EXPECT_EQ(finding.verdict, Verdict::refuted) << solver << finding.detail;
+  }
+}
+
 int refuted_mutants(const std::vector<std::string>& texts) {
   int mutants = 0;
   std::size_t first = 0;
