@@ -54,10 +54,9 @@ long work(const Mechanics& mechanics) {
 // Does a variable that is no array stand in every summand of a sum?  t does not count unless the
 // method moves it by forces.
 bool couples_all_by_one(const Mechanics& mechanics, bool moves_time) {
-  const AffineIndex time{.constant = mechanics.degrees_of_freedom - 1, .factors = {}};
   return std::ranges::any_of(mechanics.kernels, [&](const Kernel& kernel) {
     return std::ranges::any_of(kernel.slots, [&](const Slot& slot) {
-      const bool is_time = mechanics.has_time && !moves_time && slot.position == time;
+      const bool is_time = !moves_time && mechanics.is_time(slot.position);
       return is_fixed(kernel, slot) && !is_time && slot.symbol.find('[') == std::string::npos;
     });
   });

@@ -37,11 +37,11 @@ long stride_of(const Kernel& kernel) {
 }
 
 // Where each instance meets a fixed number of others, or all of them in t alone.
-void require_neighbours(const Kernel& kernel, std::optional<long> time) {
+void require_neighbours(const Mechanics& mechanics, const Kernel& kernel) {
   if (kernel.ranges.size() > 1) throw NotLocal{"a sum over several indices"};
   for (const Slot& slot : kernel.slots) {
     const bool moves = !slot.position.factors.empty();
-    if (is_fixed(kernel, slot) && slot.position.constant != time)
+    if (is_fixed(kernel, slot) && !mechanics.is_time(slot.position))
       throw NotLocal{fmt::format("{} in every summand of a sum", slot.symbol)};
     if (moves && std::abs(factor_of(slot.position)) != stride_of(kernel))
       throw NotLocal{fmt::format("{} beside {}, whose distance grows", kernel.slots.front().symbol,
@@ -138,9 +138,8 @@ class KernelSeries {
         n_(mechanics.degrees_of_freedom),
         tables_(coordinate_chart({Expression::symbol("q"), Expression::symbol("p")}, gauge)),
         terms_{{}, mechanics.kernels} {
-    if (mechanics.has_time) time_ = n_ - 1;
     for (const Kernel& kernel : mechanics.kernels) {
-      require_neighbours(kernel, time_);
+      require_neighbours(mechanics, kernel);
       stride_ = std::lcm(stride_, stride_of(kernel));
     }
   }
@@ -160,11 +159,12 @@ class KernelSeries {
       for (const long column : {0, 1}) {
         const auto weight = table.find({1, static_cast<int>(column)});
         if (weight == table.end()) continue;
-        const AffineIndex place{.constant = *time_ + column * n_, .factors = {}};
         const Expression share_of_it = factor * weight->second;
         for (const Kernel& other : terms_[at(power)]) {
           for (std::size_t s = 0; s < other.slots.size(); ++s) {
-            if (other.slots[s].position != place) continue;
+            const AffineIndex& place = other.slots[s].position;
+            if (!(column == 0 ? mechanics_.is_time(place) : mechanics_.is_momentum_of_time(place)))
+              continue;
             add(other, [&](Part& part) { return share_of_it * part.own(other.gradient[s]); });
           }
         }
@@ -172,7 +172,7 @@ class KernelSeries {
     };
     if (!vanishes) {
       for (const Kernel& kernel : mechanics_.kernels) {
-        if (!is_momentum_of_time(kernel)) {
+        if (!moves_time(kernel)) {
           add(kernel, [&](Part& part) { return moved(part, k); });
           continue;
         }
@@ -181,7 +181,7 @@ class KernelSeries {
       for (int l = 0; l + 2 <= k; ++l) {
         for (int i = 1; i + l < k; ++i) {
           for (const Kernel& kernel : terms_[at(i)]) {
-            if (is_momentum_of_time(kernel)) {
+            if (moves_time(kernel)) {
               add_of_time(tables_.gauges[at(l + 1)], Expression(Rational(-(l + 1), 2)), k - l - i);
             } else {
               add(kernel, [&](Part& part) { return turned(part, l, k - l - i); });
@@ -223,9 +223,10 @@ class KernelSeries {
   using Summand = std::function<Expression(Part&)>;
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-  [[nodiscard]] bool is_momentum_of_time(const Kernel& kernel) const {
-    return time_ && kernel.slots.size() == 1 &&
-           kernel.slots.front().position == AffineIndex{.constant = *time_ + n_, .factors = {}};
+  // p_t alone: what a time adds to H.
+  [[nodiscard]] bool moves_time(const Kernel& kernel) const {
+    return kernel.slots.size() == 1 &&
+           mechanics_.is_momentum_of_time(kernel.slots.front().position);
   }
 
   static void require_few_operations(const std::vector<Kernel>& kernels) {
@@ -340,7 +341,6 @@ class KernelSeries {
 
   const Mechanics& mechanics_;
   long n_;
-  std::optional<long> time_;                // the place of t
   Chart tables_;                            // of one degree of freedom
   long stride_ = 1;                         // a multiple of that of every kernel
   std::vector<std::vector<Kernel>> terms_;  // from S_1 on at place 1

@@ -21,6 +21,14 @@ bool Mechanics::is_separable() const {
   return true;
 }
 
+bool Mechanics::is_time(const AffineIndex& place) const {
+  return has_time && place == AffineIndex{.constant = degrees_of_freedom - 1, .factors = {}};
+}
+
+bool Mechanics::is_momentum_of_time(const AffineIndex& place) const {
+  return has_time && place == AffineIndex{.constant = 2 * degrees_of_freedom - 1, .factors = {}};
+}
+
 Expression Mechanics::variable(int i) const {
   return Expression::symbol(variables.name(static_cast<std::size_t>(i)), kRankOfVariable + i);
 }

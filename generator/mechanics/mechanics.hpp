@@ -59,6 +59,9 @@ struct Mechanics {
   [[nodiscard]] bool keeps_sums() const { return !kernels.empty(); }
   // No mixed derivative in q and p.
   [[nodiscard]] bool is_separable() const;
+  // The place of t, or of its momentum.
+  [[nodiscard]] bool is_time(const AffineIndex& place) const;
+  [[nodiscard]] bool is_momentum_of_time(const AffineIndex& place) const;
   // The symbol of z_i.
   [[nodiscard]] Expression variable(int i) const;
 };

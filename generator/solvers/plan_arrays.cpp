@@ -33,10 +33,6 @@ bool has_constant_hessian(const Kernel& kernel) {
   return has_constant_hessian(kernel, [](const Slot&) { return true; });
 }
 
-AffineIndex place_of_time(const Mechanics& mechanics) {
-  return {.constant = mechanics.degrees_of_freedom - 1, .factors = {}};
-}
-
 bool has_diagonal_hessian(const Kernel& kernel) {
   return std::ranges::all_of(
       kernel.hessian, [](const auto& entry) { return entry.first.first == entry.first.second; });
@@ -46,9 +42,7 @@ bool has_diagonal_hessian(const Kernel& kernel) {
 
 bool has_constant_matrix(const Mechanics& mechanics, const FamilyParameters& member) {
   const bool apart = knows_time(mechanics, member);
-  const auto counts = [&](const Slot& slot) {
-    return !apart || slot.position != place_of_time(mechanics);
-  };
+  const auto counts = [&](const Slot& slot) { return !apart || !mechanics.is_time(slot.position); };
   return std::ranges::all_of(kernels_of_matrix(mechanics, member), [&](const Kernel& kernel) {
     return has_constant_hessian(kernel, counts);
   });
@@ -159,9 +153,10 @@ bool knows_time(const Mechanics& mechanics, const FamilyParameters& member) {
 std::vector<Kernel> kernels_of_matrix(const Mechanics& mechanics, const FamilyParameters& member) {
   std::vector<Kernel> kernels = mechanics.kernels;
   if (!knows_time(mechanics, member)) return kernels;
-  const AffineIndex time = place_of_time(mechanics);
   for (Kernel& kernel : kernels) {
-    const auto is_time = [&](std::size_t slot) { return kernel.slots[slot].position == time; };
+    const auto is_time = [&](std::size_t slot) {
+      return mechanics.is_time(kernel.slots[slot].position);
+    };
     std::erase_if(kernel.hessian, [&](const auto& entry) {
       return is_time(entry.first.first) || is_time(entry.first.second);
     });

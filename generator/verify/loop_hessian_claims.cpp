@@ -162,15 +162,12 @@ class LoopHessianClaims {
       Linear value = entries.taken_apart(s.value);
       if (!value.of.empty()) entries.known[s.name] = std::move(value);
     }
-    std::vector<std::set<int>> partners(at(size));
-    for (const auto& [place, value] : derivatives_.hessian()) {
-      if (place.second >= size) continue;
-      partners[at(place.first)].insert(place.second);
-      partners[at(place.second)].insert(place.first);
-    }
+    const std::vector<std::vector<int>> partners = derivatives_.partners();
     for (int k = 0; k < size; ++k) {
       Linear product = entries.taken_apart(machine.value({"y", "", {{k, {}}}}));
-      for (const int j : partners[at(k)]) product.of[j];
+      for (const int j : partners[at(k)]) {
+        if (j < size) product.of[j];
+      }
       for (const auto& [j, entry] : product.of) {
         claim(fmt::format("entry {}, {} of {}", k + 1, j + 1, routine), entry,
               derivatives_.second(k, j));
