@@ -192,7 +192,7 @@ class SimplifiedNewtonRuleOf final : public AnySimplifiedNewtonRule<Real> {
   typename NumericsOf<Real>::Simplified rule_;
 };
 
-template <class Real, int Size>
+template <class Real, int Size, bool TwoForms>
 class RefinementOf final : public AnyRefinement<Real> {
  public:
   bool operator()(std::span<Real> point, std::span<const Real> lack,
@@ -226,7 +226,7 @@ class RefinementOf final : public AnyRefinement<Real> {
   }
 
  private:
-  typename NumericsOf<Real>::template Refined<Size> refinement_;
+  typename NumericsOf<Real>::template Refined<Size, TwoForms> refinement_;
 };
 
 template <class Real, int Size, class Matrix>
@@ -335,10 +335,15 @@ std::unique_ptr<AnyFixedPointRule<Real>> Blocks<Real>::fixed_point_rule(std::str
 }
 
 template <class Real>
-std::unique_ptr<AnyRefinement<Real>> Blocks<Real>::refinement(int unknowns, int components) {
+std::unique_ptr<AnyRefinement<Real>> Blocks<Real>::refinement(int unknowns, int components,
+                                                              bool two_forms) {
   const int size = std::max(unknowns, (components + 1) / 2);
-  return at_least<2, 8, 32, 128, 1024>(size, [](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
-    return std::make_unique<RefinementOf<Real, decltype(n)::value>>();
+  return at_least<2, 8, 32, 128, 1024>(size, [&](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
+    constexpr int kSize = decltype(n)::value;
+    if constexpr (NumericsOf<Real>::template Refined<kSize, true>::looks_twice) {
+      if (two_forms) return std::make_unique<RefinementOf<Real, kSize, true>>();
+    }
+    return std::make_unique<RefinementOf<Real, kSize, false>>();
   });
 }
 

@@ -175,9 +175,10 @@ struct Blocks {
   // Of this type; null if there is none.
   [[nodiscard]] static std::unique_ptr<AnyFixedPointRule<Real>> fixed_point_rule(
       std::string_view type);
-  // For up to twice as many components of the gradient as unknowns, 1024 of them.
-  [[nodiscard]] static std::unique_ptr<AnyRefinement<Real>> refinement(int unknowns,
-                                                                       int components);
+  // For up to twice as many components of the gradient as unknowns, 1024 of them; see Note [two
+  // forms of the equations].
+  [[nodiscard]] static std::unique_ptr<AnyRefinement<Real>> refinement(int unknowns, int components,
+                                                                       bool two_forms = false);
   // Up to 256 rows.
   [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(int size, bool symmetric = false);
   // Eliminated in this order, place[i] for unknown i: what elimination within a band leaves out are

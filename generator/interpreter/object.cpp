@@ -5,6 +5,7 @@
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/interpreter/compiled_expression.hpp"
+#include "generator/program/refinement_type.hpp"
 
 namespace hamgen {
 
@@ -47,7 +48,8 @@ void add_block(Object<Real>& object, const Field& field, const Program& code) {
   } else if (field.type.starts_with("SimplifiedNewtonRule")) {
     object.simplified[field.name] = Blocks<Real>::simplified_newton_rule();
   } else if (field.type.starts_with("Refinement")) {
-    object.refinements[field.name] = Blocks<Real>::refinement(sizes.at(0), sizes.at(1));
+    object.refinements[field.name] =
+        Blocks<Real>::refinement(sizes.at(0), sizes.at(1), has_two_forms(field.type));
   } else if (auto rule = Blocks<Real>::fixed_point_rule(field.type)) {
     object.contractions[field.name] = std::move(rule);
   } else {

@@ -12,7 +12,14 @@
 // cut off is a bias: a 2^-13th of a unit.  The contraction is that of two rounds, of this step or
 // of the one before, four times over; no increment of more than a 32nd of a unit is left.
 //
-template <int Size, int Components, bool RoundsBeside = false>
+// Note [two forms of the equations]
+// Stages of coordinates alone have another form in rounds than that by which they first lack
+// something, with rounded coefficients of its own: at the same point it differs by units of its
+// terms, of which there is left what the amplifier divides them by.  In double that is nothing; in
+// float it is a 128th, the same way at every step: the energy of an oscillator at h omega = 130
+// grew by 4e-2 units a step.  There the second form is looked at where the first one was, too.
+//
+template <int Size, int Components, bool RoundsBeside = false, bool TwoForms = false>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
   static constexpr Real find_amplifier() {
@@ -24,6 +31,7 @@ struct Refinement {
   static constexpr int size = Size;
   static constexpr int components = Components;
   static constexpr bool rounds_beside = RoundsBeside;
+  static constexpr bool looks_twice = TwoForms && amplifier < 4096;
   Real change[Components] = {};  // of the gradient, from the rounded point to the solution
   Real slope[Components] = {};   // the gradient at the rounded point
   Real at[Size] = {};            // that point
@@ -39,6 +47,9 @@ struct Refinement {
   int rounds = 0;
   int asked = 0;  // rounds that a rule wants to see behind the first
   bool changes = false;
+  bool looks = false;  // at what the other form lacks there
+  Real lacked[looks_twice ? Size : 1] = {};
+  Real sloped[looks_twice ? Components : 1] = {};  // the gradient with it
   bool found = true;  // was the solution at the end, or does the map not contract?
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
@@ -81,10 +92,17 @@ struct Refinement {
   // if it wants these and the gradient once more, at the point it has moved; else that is the
   // rounded one again.
   bool operator()(Real* point, const Real* lack, const Real* gradient) {
-    if (rounds == 0) begin(point, lack, gradient);
+    if (rounds == 0 && !looks) begin(point, lack, gradient);
+    if constexpr (looks_twice) {
+      if (rounds == 0) {
+        looks = !looks;
+        if (looks) return true;
+        keep(lack, gradient);
+      }
+    }
     Real error[Size] = {};
     for (int j = 0; j < Size; ++j) {
-      error[j] = missing[j] + (lack[j] - missing[j]) / amplifier;
+      error[j] = error_of(j, lack);
       moved[j] += error[j];
     }
     // See Note [what a round leaves].
@@ -94,7 +112,7 @@ struct Refinement {
       return magnitude(error[j]) * counts > unit ? magnitude(error[j]) : Real(0);
     });
     learn_of(lengths_of(error));
-    for (int k = 0; k < Components; ++k) change[k] = (gradient[k] - slope[k]) / amplifier;
+    for (int k = 0; k < Components; ++k) change[k] = off(k, gradient) / amplifier;
     changes = true;
     const bool more = goes_on(open, lack);
     for (int j = 0; j < Size; ++j) point[j] = more ? at[j] + amplifier * moved[j] : at[j];
@@ -120,6 +138,21 @@ struct Refinement {
       moved[j] = 0;
     }
     take_slopes(gradient);
+  }
+  // See Note [two forms of the equations].
+  void keep(const Real* lack, const Real* gradient) {
+    for (int j = 0; j < Size; ++j) lacked[j] = lack[j];
+    for (int k = 0; k < Components; ++k) sloped[k] = gradient[k];
+  }
+  // What the equations lack where the solution is taken to be.
+  Real error_of(int j, const Real* lack) const {
+    if constexpr (looks_twice) return missing[j] + (lack[j] - lacked[j]) / amplifier;
+    return missing[j] + (lack[j] - missing[j]) / amplifier;
+  }
+  // How far the gradient is from that at the rounded point.
+  Real off(int k, const Real* gradient) const {
+    if constexpr (looks_twice) return gradient[k] - sloped[k];
+    return gradient[k] - slope[k];
   }
   void take_slopes(const Real* gradient) {
     for (int k = 0; k < Components; ++k) slope[k] = gradient[k];
@@ -165,7 +198,7 @@ struct Refinement {
       noise = left > noise ? left : noise;
     }
     return sum_of<Size>([&](int j) {
-      const Real error = magnitude(missing[j] + (lack[j] - missing[j]) / amplifier);
+      const Real error = magnitude(error_of(j, lack));
       const Real unit = epsilon * length(at[j]);
       const bool moves = error * 32 > unit && error * 1024 > begun;
       return moves && error > noise ? error : Real(0);

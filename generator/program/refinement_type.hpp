@@ -5,12 +5,17 @@
 
 namespace hamgen {
 
-// Of so many unknowns and components of the gradient; does it round with a length besides?  See
-// Note [forces that cancel].
-[[nodiscard]] inline std::string refinement_type(int unknowns, int components, bool rounds_beside) {
-  const char* const besides = rounds_beside ? ", true" : "";
-  return "Refinement<" + std::to_string(unknowns) + ", " + std::to_string(components) + besides +
-         ">";
+// Of so many unknowns and components of the gradient; does it round with a length besides (see Note
+// [forces that cancel]), and have its rounds another form of the equations than its beginning?
+[[nodiscard]] inline std::string refinement_type(int unknowns, int components, bool rounds_beside,
+                                                 bool two_forms = false) {
+  const char* const second = rounds_beside ? ", true, true" : ", false, true";
+  const char* const first = rounds_beside ? ", true" : "";
+  return "Refinement<" + std::to_string(unknowns) + ", " + std::to_string(components) +
+         (two_forms ? second : first) + ">";
+}
+[[nodiscard]] inline bool has_two_forms(const std::string& refinement_type) {
+  return refinement_type.ends_with("e, true>");
 }
 
 }  // namespace hamgen

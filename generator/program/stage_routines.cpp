@@ -96,7 +96,8 @@ class StageRoutines : StageParts {
       record.fields.push_back(
           {.name = "patience", .remark = "steps left to Newton", .values = {0}, .type = "int"});
     }
-    std::string refinement = refinement_type(iterated(), unknowns(), beside_.has_value());
+    std::string refinement =
+        refinement_type(iterated(), unknowns(), beside_.has_value(), coordinates_.has_value());
     if (layout_.packs() > 0) refinement = "RefinementInLanes<Lanes, " + refinement + ">";
     record.fields.push_back({.name = "refinement", .type = std::move(refinement)});
     return record;

@@ -76,9 +76,9 @@ TEST(Origins, TellCoefficientsOfTheRunFromThoseOfTheStepSize) {
   EXPECT_EQ(between(origins(kTwoForces), "prepare(", "solve("),
             R"(prepare(par, h):
 run                   |  #0 <- w^2
-run                   |  high(w^2) <- 999999*#0/1000000
+run                   |  high(w^2) <- 9999*#0/10000
 run                   |  low(w^2) <- #0 - high(w^2)
-step size             |  high(h) <- 999999*h/1000000
+step size             |  high(h) <- 9999*h/10000
 step size             |  low(h) <- h - high(h)
 step size             |  #1 <- -low(h)/2
 step size             |  #2 <- -high(h)/2
