@@ -112,7 +112,8 @@ class MachineCompiler : public MachineIterationCompiler<Real> {
       if (own) {
         own->clear();
       } else {
-        own = matrix.patterned ? Blocks<Real>::matrix(code_.matrix->rows(), code_.matrix->symmetric)
+        own = matrix.patterned ? Blocks<Real>::matrix(code_.matrix->rows(), code_.matrix->symmetric,
+                                                      code_.matrix->rows_of_border())
                                : Blocks<Real>::matrix(matrix.size, matrix.symmetric);
       }
       m_.matrices[matrix.name] = own.get();

@@ -232,13 +232,15 @@ class RefinementOf final : public AnyRefinement<Real> {
 template <class Real, int Size, class Matrix>
 class MatrixOf final : public AnyMatrix<Real> {
  public:
-  explicit MatrixOf(std::vector<int> place)
-      : size_(static_cast<int>(place.size())), place_(std::move(place)) {
+  explicit MatrixOf(std::vector<int> place) : place_(std::move(place)) {
+    for (int i = 0; i < Size; ++i) {
+      if (std::ranges::find(place_, i) == place_.end()) unused_.push_back(i);
+    }
     clear();
   }
   void clear() override {
     matrix_.clear();
-    for (int i = size_; i < Size; ++i) matrix_.put(i, i, 1);
+    for (const int i : unused_) matrix_.put(i, i, 1);
   }
   void put(int row, int column, Real value) override {
     matrix_.put(place_[index(row)], place_[index(column)], value);
@@ -261,8 +263,8 @@ class MatrixOf final : public AnyMatrix<Real> {
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-  int size_;
   std::vector<int> place_;
+  std::vector<int> unused_;
   Matrix matrix_;
 };
 
@@ -360,16 +362,22 @@ std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(int size, bool symmetric) 
 }
 
 template <class Real>
-std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(std::vector<int> place, bool symmetric) {
-  const auto size = static_cast<int>(place.size());
-  return at_least_up_to_256(size, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
+std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(std::vector<int> place, bool symmetric,
+                                                      int border) {
+  const int inside = static_cast<int>(place.size()) - border;
+  return at_least_up_to_256(inside, [&](auto n) -> std::unique_ptr<AnyMatrix<Real>> {
     constexpr int most = decltype(n)::value;
-    if (symmetric) {
-      using Matrix = typename NumericsOf<Real>::template SymmetricBand<most>;
-      return std::make_unique<MatrixOf<Real, most, Matrix>>(std::move(place));
-    }
-    using Matrix = typename NumericsOf<Real>::template Dense<most>;
-    return std::make_unique<MatrixOf<Real, most, Matrix>>(std::move(place));
+    using Symmetric = typename NumericsOf<Real>::template SymmetricBand<most>;
+    using Dense = typename NumericsOf<Real>::template Dense<most>;
+    const auto of = [&](auto matrix) -> std::unique_ptr<AnyMatrix<Real>> {
+      using Band = typename decltype(matrix)::type;
+      if (border == 0) return std::make_unique<MatrixOf<Real, most, Band>>(std::move(place));
+      constexpr int kBorder = 8;
+      for (int& row : place) row += row < inside ? 0 : most - inside;
+      using Bordered = typename NumericsOf<Real>::template Bordered<Band, kBorder>;
+      return std::make_unique<MatrixOf<Real, most + kBorder, Bordered>>(std::move(place));
+    };
+    return symmetric ? of(std::type_identity<Symmetric>()) : of(std::type_identity<Dense>());
   });
 }
 

@@ -183,8 +183,10 @@ struct Blocks {
   [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(int size, bool symmetric = false);
   // Eliminated in this order, place[i] for unknown i: what elimination within a band leaves out are
   // products with zeros.
+  // The last `border` of these stand in a border.
   [[nodiscard]] static std::unique_ptr<AnyMatrix<Real>> matrix(std::vector<int> place,
-                                                               bool symmetric = false);
+                                                               bool symmetric = false,
+                                                               int border = 0);
 };
 
 }  // namespace hamgen

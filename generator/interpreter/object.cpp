@@ -34,7 +34,8 @@ template <class Real>
 void add_block(Object<Real>& object, const Field& field, const Program& code) {
   const std::vector<int> sizes = template_arguments(field.type);
   if (field.type == "Matrix") {
-    object.matrices[field.name] = Blocks<Real>::matrix(code.matrix->rows(), code.matrix->symmetric);
+    object.matrices[field.name] = Blocks<Real>::matrix(code.matrix->rows(), code.matrix->symmetric,
+                                                       code.matrix->rows_of_border());
   } else if (field.type.starts_with("NewtonRule<")) {
     object.rules[field.name] = Blocks<Real>::newton_rule(sizes.at(0), 0, false);
   } else if (field.type.starts_with("NewtonRuleOfMany")) {

@@ -1,7 +1,7 @@
 // The end of a fixed-point iteration, below the last place of its unknowns, in each lane as for one
 // trajectory (refinement.hpp has the reasons).  A lane that wants no more has its rounded point
 // again, and keeps what was found there.
-template <int Size, int Components, bool RoundsBeside = false, bool TwoForms = false>
+template <int Size, int Components, bool RoundsBeside = false, bool = false>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
   static constexpr double find_amplifier() {
@@ -10,7 +10,6 @@ struct Refinement {
     return power;
   }
   static constexpr double amplifier = find_amplifier();
-  static constexpr bool looks_twice = TwoForms && amplifier < 4096;
   Real change[Components] = {};  // of the gradient, from the rounded point to the solution
   Real slope[Components] = {};   // the gradient at the rounded point
   Real at[Size] = {};            // that point
@@ -27,9 +26,6 @@ struct Refinement {
   Mask found = true;             // lanes where the solution was at the end
   Mask asked = false;            // lanes of which a rule wants to see two rounds more
   int rounds = 0;
-  bool looks = false;  // at what the other form lacks there
-  Real lacked[looks_twice ? Size : 1] = {};
-  Real sloped[looks_twice ? Components : 1] = {};  // the gradient with it
 
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
@@ -55,14 +51,7 @@ struct Refinement {
   // lack: the next value less the point, or that multiplied by a matrix that contracts better. True
   // if it wants these and the gradient once more, in some lanes at points that it has moved.
   bool operator()(const Turn& turn, Real* point, const Real* lack, const Real* gradient) {
-    if (rounds == 0 && !looks) begin(turn.lanes, point, lack, gradient);
-    if constexpr (looks_twice) {
-      if (rounds == 0) {
-        looks = !looks;
-        if (looks) return true;
-        keep(lack, gradient);
-      }
-    }
+    if (rounds == 0) begin(turn.lanes, point, lack, gradient);
     const Mask looked = open;
     round(lack, gradient);
     return move(looked, point);
@@ -110,20 +99,6 @@ struct Refinement {
     open = lanes;
     found = found | lanes;
   }
-  void keep(const Real* lack, const Real* gradient) {
-    for (int j = 0; j < Size; ++j) lacked[j] = lack[j];
-    for (int k = 0; k < Components; ++k) sloped[k] = gradient[k];
-  }
-  // What the equations lack where the solution is taken to be.
-  Real error_of(int j, const Real* lack) const {
-    if constexpr (looks_twice) return missing[j] + (lack[j] - lacked[j]) / amplifier;
-    return missing[j] + (lack[j] - missing[j]) / amplifier;
-  }
-  // How far the gradient is from that at the rounded point.
-  Real off(int k, const Real* gradient) const {
-    if constexpr (looks_twice) return gradient[k] - sloped[k];
-    return gradient[k] - slope[k];
-  }
   void round(const Real* lack, const Real* gradient) {
     if (!any(open)) return;
     const Mask lanes = open;
@@ -131,7 +106,7 @@ struct Refinement {
     const Real part = 32768 * contraction;
     const Real counts = select(part > 32, select(part < 8192, part, Real(8192)), Real(32));
     const Real size = sum_of(Size, [&](int j) {
-      const Real error = error_of(j, lack);
+      const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
       const Real way = moved[j] + error;
       moved[j] = way;
       const Real unit = epsilon * length(at[j]) + magnitude(way) / 128;
@@ -142,7 +117,7 @@ struct Refinement {
     contraction = select(lanes & Mask(rounds > 0), seen, contraction);
     last = size;
     for (int k = 0; k < Components; ++k)
-      change[k] = select(lanes, off(k, gradient) / amplifier, change[k]);
+      change[k] = select(lanes, (gradient[k] - slope[k]) / amplifier, change[k]);
     // A slow contraction takes its time; what the rounding of the map leaves does not decrease.
     // What is lost beside the first round is not waited for.
     if (rounds == 0) begun = last;
@@ -157,16 +132,11 @@ struct Refinement {
   }
   // Of unknowns that a round still moves when no more is to be had.
   Real far_off(const Real* lack) const {
-    Real noise = 0;
-    for (int j = 0; j < Size && amplifier < 4096; ++j) {
-      const Real left = 8 * epsilon * magnitude(at[j]) / amplifier;
-      noise = select(left > noise, left, noise);
-    }
     return sum_of(Size, [&](int j) {
-      const Real error = magnitude(error_of(j, lack));
+      const Real error = magnitude(missing[j] + (lack[j] - missing[j]) / amplifier);
       const Real unit = epsilon * length(at[j]);
       const Mask moves = (error * 32 > unit) & (error * 1024 > begun);
-      return select(moves & (error > noise), error, Real(0));
+      return select(moves, error, Real(0));
     });
   }
   bool move(const Mask& looked, Real* point) {

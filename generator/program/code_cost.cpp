@@ -113,7 +113,8 @@ class CodeCost {
         code_.matrix->kind == MatrixKind::eigen_dense)
       return {0, 0};
     const bool band = code_.matrix->kind == MatrixKind::band;
-    return {code_.matrix->size, band ? code_.matrix->bandwidth : code_.matrix->size / 2};
+    const long others = code_.matrix->bandwidth + code_.matrix->rows_of_border();
+    return {code_.matrix->size, band ? others : code_.matrix->size / 2};
   }
 
   const Program& code_;

@@ -357,12 +357,20 @@ std::string type_of(const ArrayMatrix& matrix) {
     return plain(eigen ? "EigenDenseMatrix" : "DenseMatrix");
   if (matrix.kind == MatrixKind::eigen_sparse)
     return plain(eigen ? "EigenSparseMatrix" : "SparseMatrix");
-  if (matrix.bandwidth == 0) return plain("DiagonalMatrix");
-  const std::string band = fmt::format("{}BandMatrix<{}, {}>", matrix.symmetric ? "Symmetric" : "",
-                                       matrix.size, matrix.bandwidth);
-  if (matrix.in_natural_order()) return band;
-  return fmt::format("ReorderedMatrix<{}, ElementOrder<{}, {}, {}>>", band, matrix.arrays,
-                     matrix.length(), matrix.folded);
+  const std::string inside =
+      matrix.bandwidth == 0
+          ? fmt::format("DiagonalMatrix<{}>", matrix.inside())
+          : fmt::format("{}BandMatrix<{}, {}>", matrix.symmetric ? "Symmetric" : "",
+                        matrix.inside(), matrix.bandwidth);
+  if (matrix.border.empty() && (matrix.bandwidth == 0 || matrix.in_natural_order())) return inside;
+  const std::string order =
+      fmt::format("{}, {}, {}", matrix.arrays, matrix.length(), matrix.folded);
+  if (matrix.border.empty())
+    return fmt::format("ReorderedMatrix<{}, ElementOrder<{}>>", inside, order);
+  const std::string whole = fmt::format("BorderedMatrix<{}, {}>", inside, matrix.border.size());
+  if (matrix.in_natural_order()) return whole;
+  return fmt::format("ReorderedMatrix<{}, BorderOrder<{}, {}, {}>>", whole, matrix.inside(), order,
+                     fmt::join(matrix.border, ", "));
 }
 
 const Body* inner_body(const Statement& statement) {

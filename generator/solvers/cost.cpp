@@ -55,9 +55,13 @@ double elimination(const ArrayMatrix& matrix, const Prices& prices) {
   const double size = matrix.size;
   const double width = matrix.bandwidth;
   switch (matrix.kind) {
-    case MatrixKind::band:
-      return matrix.symmetric ? size * (prices.symmetric_row + 3 * width * width)
-                              : size * (prices.band_row + 6 * width * width);
+    case MatrixKind::band: {
+      // For each column of the border the band is solved, and multiplied by each of its rows.
+      const auto border = static_cast<double>(matrix.border.size());
+      const double around = border * size * (6 * width + 2 + 2 * border);
+      return around + (matrix.symmetric ? size * (prices.symmetric_row + 3 * width * width)
+                                        : size * (prices.band_row + 6 * width * width));
+    }
     case MatrixKind::dense:
     case MatrixKind::eigen_dense:
       return 2 * size * size * size / 3;

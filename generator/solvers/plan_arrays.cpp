@@ -93,7 +93,7 @@ namespace {
 std::string matrix_text(const ArrayMatrix& matrix) {
   switch (matrix.kind) {
     case MatrixKind::band:
-      return "banded";
+      return matrix.border.empty() ? "banded" : "bordered";
     case MatrixKind::dense:
     case MatrixKind::eigen_dense:
       return "dense";
@@ -108,8 +108,10 @@ std::string without_eigen(const ArrayMatrix& matrix) {
   if (matrix.kind == MatrixKind::dense) {
     return fmt::format("Eigen: a full matrix of size {} is eliminated here", matrix.size);
   }
-  return fmt::format("Eigen: the matrix has bandwidth {}{}", matrix.bandwidth,
-                     matrix.folded ? ", the ring folded flat" : "");
+  const std::string around =
+      matrix.border.empty() ? "" : fmt::format(" within a border of {}", matrix.border.size());
+  return fmt::format("Eigen: the matrix has bandwidth {}{}{}", matrix.bandwidth,
+                     matrix.folded ? ", the ring folded flat" : "", around);
 }
 
 std::string solver_text(const SolvePlan& plan, int n) {

@@ -49,6 +49,10 @@ const char* const kRing =
     "system ring\nsize N = 26\ncoordinate q[1..N] periodic\nmomentum p[1..N]\nparameter a = 1/4\n"
     "H = sum(i = 1..N, p[i]^2*(1 + a*q[i]^2)/2 + q[i]^4/4 - sqrt(3 - q[i]) + cos(q[i+1] - q[i]))"
     "\n";
+const char* const kField =
+    "system field\nsize N = 26\ncoordinate q[1..N], f\nmomentum p[1..N], J\nparameter a = 1/4\n"
+    "H = sum(i = 1..N, p[i]^2*(1 + a*q[i]^2)/2 + q[i]^4/4 - sqrt(3 - q[i])) + J^2/2"
+    " - (2 + sin(J))*sum(i = 1..N, cos(q[i] - f))/8\n";
 const Starts kPlucked = {{0.1, 0.2}, {1.5, 0.5}, {-0.3, 0.4}, {4, 0},
                          {1, 9},     {0.9, -12}, {0, 0},      {2.5, 2.5}};
 
@@ -172,6 +176,7 @@ std::vector<BatchCase> iterated_cases() {
           in_loops("Ring", kRing, {}, 0.2, 3),
           in_loops("RingByNewton", kRing, newton, 0.1, 3),
           in_loops("RingByFixedPoint", kRing, fixed_point, 0.1, 3),
+          in_loops("FieldByNewton", kField, newton, 0.1, 3),
           in_loops("RingByGauss", kRing, gauss_newton, 0.2, 4)};
 }
 

@@ -177,6 +177,25 @@ TEST(Loops, OfRingsAndOfAllPairsHaveTheBitsThatAreInterpreted) {
   }
 }
 
+// What all meet stands in a border: a symmetric band within one variable, and both arrays in turn
+// within two.
+TEST(Loops, OfAVariableThatAllMeetHaveTheBitsThatAreInterpreted) {
+  std::vector<double> state(54);
+  for (std::size_t i = 0; i < state.size(); ++i)
+    state[i] = static_cast<double>(i % 7) / 8 - static_cast<double>(i % 3) / 4 + 1;
+  for (const std::string& text :
+       {"coordinate f, q[1..26] with q[0] = 0, q[27] = 0\nmomentum J, p[1..26]\n"
+        "H = sum(i = 1..26, p[i]^2/2 + f*sin(q[i])) + J^2/2 + f^4"
+        " + sum(i = 0..26, (q[i+1] - q[i])^4/4)\n",
+        "coordinate q[1..26], f\nmomentum p[1..26], J\n"
+        "H = sum(i = 1..26, p[i]^2*(1 + q[i]^2/4)/2) + J"
+        " + sqrt(J^2 + 10)*sum(i = 1..26, cos(q[i] - f))/16\n"}) {
+    SCOPED_TRACE(text);
+    takes_the_same_steps(text, {.solver = "newton"}, 0.03125, state);
+    takes_the_same_steps(text, {.alpha = "3/10", .beta = "1/8"}, 0.03125, state);
+  }
+}
+
 // Symmetric bands, folded or not, of steps so long that Newton takes them, and of linear equations
 // of a condition up to 1e12.
 TEST(Loops, OfSymmetricBandsHaveTheBitsThatAreInterpreted) {

@@ -111,6 +111,11 @@ TEST(LaneBlocks, ABandIsSolvedInEachLaneBitForBitAsAlone) {
                          of_double::ReorderedMatrix<of_double::BandMatrix<kRows, 4>, Order>>(kRows);
 }
 
+TEST(LaneBlocks, ABorderIsSolvedInEachLaneBitForBitAsAlone) {
+  expect_solved_as_alone<packs::BorderedMatrix<packs::DenseMatrix<kRows - 2>, 2>,
+                         of_double::BorderedMatrix<of_double::DenseMatrix<kRows - 2>, 2>>(kRows);
+}
+
 TEST(LaneBlocks, ASymmetricBandIsSolvedInEachLaneBitForBitAsAlone) {
   expect_solved_as_alone<packs::SymmetricBandMatrix<kRows, 1>,
                          of_double::SymmetricBandMatrix<kRows, 1>>(1);
@@ -148,6 +153,8 @@ void expect_kept_as_alone(int width) {
 
 TEST(LaneBlocks, FactorsServeEachLaneUntilItWantsOthers) {
   expect_kept_as_alone<packs::DenseMatrix<kRows>, of_double::DenseMatrix<kRows>>(kRows);
+  expect_kept_as_alone<packs::BorderedMatrix<packs::DenseMatrix<kRows - 3>, 3>,
+                       of_double::BorderedMatrix<of_double::DenseMatrix<kRows - 3>, 3>>(kRows);
   expect_kept_as_alone<packs::BandMatrix<kRows, 2>, of_double::BandMatrix<kRows, 2>>(2);
   expect_kept_as_alone<packs::SymmetricBandMatrix<kRows, 2>,
                        of_double::SymmetricBandMatrix<kRows, 2>>(2);

@@ -1,47 +1,9 @@
 // Linear systems: what is solved to rounding, and what is refused.
-#include "tests/numerics_blocks/every_scalar.hpp"
+#include "tests/numerics_blocks/linear_systems.hpp"
 
 namespace hamgen::numerics_blocks_test {
 namespace {
 
-template <class Blocks>
-class Matrices : public ::testing::Test {
- protected:
-  using Number = typename Blocks::Scalar;
-
-  // Fills the matrix with the entries and solves for a known solution x_i = i - 2, from its image,
-  // which is exact.  Returns the largest error in units of rounding, -1 if it was refused.
-  template <int Size, class Matrix>
-  static double error(Matrix& matrix, const Number (&entry)[Size][Size]) {
-    Number vector[Size] = {};
-    matrix.clear();
-    for (int i = 0; i < Size; ++i) {
-      for (int j = 0; j < Size; ++j) {
-        if (entry[i][j] != 0) matrix.put(i, j, entry[i][j]);
-        vector[i] += entry[i][j] * Number(j - 2);
-      }
-    }
-    if (!matrix.factorise()) return -1;
-    matrix.solve(vector);
-    Number worst = 0;
-    for (int i = 0; i < Size; ++i) {
-      const Number off = Blocks::absolute(vector[i] - Number(i - 2));
-      if (!(off <= worst)) worst = off;
-    }
-    return static_cast<double>(worst / Blocks::unit);
-  }
-
-  // Random, nothing below the `width`-th diagonal or above it, and zeros on the diagonal.
-  template <int Size>
-  static void fill(Number (&entry)[Size][Size], int width, Numbers& numbers) {
-    for (int i = 0; i < Size; ++i) {
-      for (int j = 0; j < Size; ++j) {
-        const bool inside = i - j <= width && j - i <= width && i != j;
-        entry[i][j] = inside ? Number(numbers.next()) : Number(0);
-      }
-    }
-  }
-};
 TYPED_TEST_SUITE(Matrices, EveryScalar);
 
 // Backward stable elimination errs by some n^2 units of rounding times the condition, which is
@@ -325,45 +287,6 @@ TYPED_TEST(Matrices, ADiagonalIsDividedBy) {
   const Real entry[4][4] = {{2, 0, 0, 0}, {0, -4, 0, 0}, {0, 0, 8, 0}, {0, 0, 0, 1}};
   typename TypeParam::template Diagonal<4> matrix;
   EXPECT_EQ(this->template error<4>(matrix, entry), 0);
-}
-
-template <class Order>
-std::vector<int> rows_of(int count) {
-  std::vector<int> rows;
-  for (int i = 0; i < count; ++i) rows.push_back(Order::row(i));
-  return rows;
-}
-
-TYPED_TEST(Matrices, UnknownsOfSeveralArraysStandElementByElement) {
-  EXPECT_EQ((rows_of<typename TypeParam::template Order<2, 3, false>>(6)),
-            (std::vector<int>{0, 2, 4, 1, 3, 5}));
-  EXPECT_EQ((rows_of<typename TypeParam::template Order<1, 5, true>>(5)),
-            (std::vector<int>{0, 2, 4, 3, 1}));
-  EXPECT_EQ((rows_of<typename TypeParam::template Order<2, 4, true>>(8)),
-            (std::vector<int>{0, 4, 6, 2, 1, 5, 7, 3}));
-  // What is behind the arrays stays there.
-  EXPECT_EQ((rows_of<typename TypeParam::template Order<2, 3, false>>(7)),
-            (std::vector<int>{0, 2, 4, 1, 3, 5, 6}));
-}
-
-// Folded flat it has its neighbours within two places: 0, 7, 1, 6, 2, 5, 3, 4.
-TYPED_TEST(Matrices, ARingIsABandInAnotherOrder) {
-  using Real = typename TypeParam::Scalar;
-  Numbers numbers;
-  typename TypeParam::template Reordered<typename TypeParam::template Band<8, 2>,
-                                         typename TypeParam::template Order<1, 8, true>>
-      ring;
-  for (int run = 0; run < 20; ++run) {
-    Real entry[8][8] = {};
-    for (int i = 0; i < 8; ++i) {
-      entry[i][i] = 3;
-      entry[i][(i + 1) % 8] = Real(numbers.next());
-      entry[(i + 1) % 8][i] = Real(numbers.next());
-    }
-    const double error = this->template error<8>(ring, entry);
-    EXPECT_GE(error, 0);
-    EXPECT_LT(error, 100) << run;
-  }
 }
 
 }  // namespace

@@ -115,9 +115,36 @@ TEST(LargePlan, TimeIsNoMatterOfTheMatrix) {
   const Outcome two = outcome(driven("x[1..N], ") + "momentum y[1..N]\n" + h +
                               " + sum(i = 1..N, y[i]^2/2 + (x[i] - q[i])^4/4)\n");
   EXPECT_TRUE(contains(two.header, "ElementOrder<2, 40, false>")) << two.plan;
-  // Where gamma moves t it is an unknown like any other.
+  // Where gamma moves t it is an unknown like any other, which all meet.
   const Outcome moved = outcome(driven("") + h + "\n", {.gamma = "h/9"});
   EXPECT_FALSE(contains(moved.plan, "banded")) << moved.plan;
+  EXPECT_TRUE(contains(moved.plan, "bordered Newton")) << moved.plan;
+}
+
+// What all elements meet, or a few that are far apart, stands in a border around the band.
+TEST(LargePlan, AVariableThatAllMeetIsABorder) {
+  const Outcome wave = outcome(
+      "size N = 40\ncoordinate q[1..N], f\nmomentum p[1..N], J\n"
+      "H = sum(i = 1..N, p[i]^2/2) + J + sqrt(J)*sum(i = 1..N, cos(q[i] - f))\n");
+  EXPECT_TRUE(contains(wave.plan, "bordered Newton of size 82")) << wave.plan;
+  EXPECT_TRUE(contains(wave.plan, "within a border of 2")) << wave.plan;
+  EXPECT_TRUE(contains(wave.header, "BorderOrder<80, 2, 40, false, 40, 81>")) << wave.plan;
+  const Outcome last = outcome(
+      "size N = 40\ncoordinate q[1..N] with q[0] = 0, q[N+1] = 0\nmomentum p[1..N]\n"
+      "coordinate x\nmomentum y\n"
+      "H = sum(i = 1..N, p[i]^2/2) + sum(i = 0..N, (q[i+1] - q[i])^4/4)"
+      " + y^2/2 + (x - q[7])^4 + (x - q[30])^4\n");
+  EXPECT_TRUE(
+      contains(last.header, "using Matrix = BorderedMatrix<SymmetricBandMatrix<40, 1>, 1>;"))
+      << last.plan;
+  const Outcome free = outcome(
+      "size N = 40\ncoordinate x, q[1..N]\nmomentum y, p[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2) + y^2/2 + sum(i = 1..N, (q[i] - x)^4/4)\n");
+  EXPECT_TRUE(
+      contains(free.header,
+               "ReorderedMatrix<BorderedMatrix<DiagonalMatrix<40>, 1>, BorderOrder<40, 1, 40, "
+               "false, 0>>"))
+      << free.plan;
 }
 
 // What stands still in a loop is computed before it, and what is added to one element behind it.
