@@ -115,13 +115,25 @@ std::vector<Case> scenes_of(const Model& model, const SourceText& source, const 
   return result;
 }
 
+namespace {
+
+std::string path_of(const SteepModel& steep) { return std::string(steep.name) + ".ham"; }
+
+}  // namespace
+
 SourceText model(const std::string& name) {
   for (const SteepModel& steep : kSteepModels) {
     if (name == steep.name) {
-      return make_source(name + ".ham", "system " + name + "\n" + steep.text);
+      return make_source(path_of(steep), "system " + name + "\n" + steep.text);
     }
   }
   return read_source(std::string(HAMGEN_SOURCE_DIR) + "/hamiltonians/" + name + ".ham");
+}
+
+bool has_cancelling_forces(const SourceText& model) {
+  return std::ranges::any_of(kSteepModels, [&](const SteepModel& steep) {
+    return steep.cancels && model.path == path_of(steep);
+  });
 }
 
 std::vector<std::string> all_models() {

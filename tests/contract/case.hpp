@@ -46,6 +46,8 @@ struct Method {
 
 // A model of tests/contract/models.hpp, or a shipped one.
 [[nodiscard]] SourceText model(const std::string& name);
+// Is its force what terms of another size leave?
+[[nodiscard]] bool has_cancelling_forces(const SourceText& model);
 // The names of both.
 [[nodiscard]] std::vector<std::string> all_models();
 

@@ -131,7 +131,7 @@ struct CompiledExact : Compiled<Emitted> {
 // Steps of a Propagator, of a composition substep by substep as its step() takes them.
 template <class Emitted, class ExactEmitted>
 Defects run(const Vector& parameters, const Equations& equations, typename Emitted::Real h,
-            const Vector& start, long long steps) {
+            const Vector& start, long long steps, bool cancels) {
   using Real = typename Emitted::Real;
   using State = typename Emitted::State;
   constexpr int lanes = Emitted::lanes;
@@ -141,7 +141,7 @@ Defects run(const Vector& parameters, const Equations& equations, typename Emitt
     exact.par = state_of<Quad, typename ExactEmitted::Parameters>(numbers<Real, lanes>(code.par));
   }
   typename Emitted::Propagator all(code.par, h, state_of<Real, State, lanes>(start, true));
-  Watch watch(code, exact);
+  Watch watch(code, exact, cancels);
   Defects defects;
   for (defects.steps = 0; defects.steps < steps; ++defects.steps) {
     if constexpr (requires { Emitted::Propagator::substeps; }) {

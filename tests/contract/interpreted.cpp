@@ -114,7 +114,7 @@ Defects measure(const Case& c, const Codes& codes) {
   Interpreter<Real> run(codes.measured, parameters, static_cast<Real>(start.h),
                         rounded<Real>(exact(start.state)));
   Interpreted<Real> measured{run};
-  Watch watch(measured, exact_run);
+  Watch watch(measured, exact_run, has_cancelling_forces(c.model));
   std::map<Quad, Equations> of_length;
   Defects defects{.name = c.name};
   for (; defects.steps < start.steps; ++defects.steps) {

@@ -111,12 +111,12 @@ std::string call(const Case& c, std::size_t i) {
                                     ? "runge_kutta(" + list(e.a) + ", " + list(e.b) + ")"
                                     : "Equations()";
   return fmt::format(R"(  {{
-    Defects found = run<Measured_{0}, Exact_{0}>(Vector{{{3}}}, {4}, {5:a}, Vector{{{2}}}, {6});
+    Defects found = run<Measured_{0}, Exact_{0}>(Vector{{{3}}}, {4}, {5:a}, Vector{{{2}}}, {6}, {7});
     print("{1}", found);
   }}
 )",
                      i, c.name, list(start.state), list(parameters), equations, start.h,
-                     start.steps);
+                     start.steps, has_cancelling_forces(c.model));
 }
 
 runtime::ProcessResult run(std::vector<std::string> command) {

@@ -9,7 +9,8 @@ namespace hamgen::contract {
 
 struct SteepModel {
   const char* name;
-  const char* text;  // after "system NAME"
+  const char* text;      // after "system NAME"
+  bool cancels = false;  // see has_cancelling_forces
 };
 
 inline constexpr std::array kSteepModels = {
@@ -110,19 +111,22 @@ momentum p
 H = p^2/2 + exp(q) - q
 scene small { q = 1e-9; h = 0.1; steps = 300 }
 scene tiny { q = 1e-14; h = 0.1; steps = 100 }
-)"},
+)",
+               true},
     SteepModel{"two_near_rest", R"(coordinate x, y
 momentum u, v
 parameter k = 3
 H = u^2/2 + 5*v^2 + k*(1 - exp(-x))^2 + exp(30*(x - y)) - 30*(x - y) + y^2
 scene small { x = 1e-9; v = 1e-7; h = 0.02; steps = 150 }
-)"},
+)",
+               true},
     // And beside such a force one whose terms all vanish.
     SteepModel{"beside_near_rest", R"(coordinate x, y
 momentum u, v
 H = u^2/2 + v^2/2 + exp(x) - x + 5*y^2 + y^4
 scene small { x = 1e-9; u = 1e-9; y = 1e-12; v = 1e-12; h = 0.2; steps = 100 }
-)"},
+)",
+               true},
     // And where the terms are gone, the state being far from that equilibrium.
     SteepModel{"far_from_rest", R"(coordinate x, y, z
 momentum u, v, w
@@ -136,14 +140,16 @@ momentum p[1..N]
 momentum u[1..N]
 H = sum(i = 1..N, p[i]^2/2 + exp(q[i] - q[i+1])) + sum(i = 1..N, u[i]^2/2 + 5*x[i]^2 + x[i]^4)
 scene loud { q[i] = 1e-3*sin(i^2); p[i] = 1e-3*cos(3*i^2); x[i] = 1e-12*sin(i^2); u[i] = 1e-12*cos(3*i^2); h = 0.2; steps = 30 }
-)"},
+)",
+               true},
     SteepModel{"ring_near_rest", R"(size N = 32
 coordinate q[1..N] periodic
 momentum p[1..N]
 H = sum(i = 1..N, p[i]^2/2 + exp(q[i] - q[i+1]))
 scene waves { q[i] = 1e-9*sin(i^2); p[i] = 1e-9*cos(3*i^2); h = 0.05; steps = 60 }
 scene tiny { q[i] = 1e-13*sin(i^2); p[i] = 1e-13*cos(3*i^2); h = 0.2; steps = 30 }
-)"},
+)",
+               true},
     // What all elements have to do with: t, and a wave.
     SteepModel{"driven_ring", R"(size N = 24
 coordinate q[1..N] periodic

@@ -12,12 +12,12 @@
 // evaluate H's gradient as it is emitted.  (The maximum: quad rounds the
 // largest to a 2^-113th, and what is judged by it must be a million times as much.  Y_i lies
 // between two numbers, and g(Y_i) is the worse of the two there: where g is a single product, its
-// error at one of them may vanish by chance.  Where g is what terms of another size leave, in the
-// models `near_rest`, it may do so over many numbers: it is the worst of those at Y_i and at a 32nd
-// of the step Z - z to either side.  w is 1, and for a member what I/2 + C has
-// beside its diagonal besides: the parts of h J g that a row of another component takes.)  Then, A
-// = I - h (a J H''(Y_j)) the matrix of the equations, the stages err by |A^-1| r, and so does Z but
-// for rounding it, as h J H'' dY = a^-1 (dY - r):
+// error at one of them may vanish by chance.  Where g is what terms of another size leave (models
+// that say so, as `near_rest`), it may do so over many numbers: it is the worst of those at Y_i and
+// at a 32nd of the step Z - z to either side.  w is 1, and for a member what I/2 + C has beside its
+// diagonal besides: the parts of h J g that a row of another component takes.)  Then, A = I - h (a
+// J H''(Y_j)) the matrix of the equations, the stages err by |A^-1| r, and so does Z but for
+// rounding it, as h J H'' dY = a^-1 (dY - r):
 //   member:  dZ = (I/2 + C)^-1 dY, for the midpoint rule twice dY;
 //   stages:  dZ = b^T a^-1 dY, each stage with its weight d = |b^T a^-1| (HLW IV.8).
 // A step keeps the contract if in every component
@@ -88,7 +88,8 @@ template <class Code, class Exact>
 class Watch {
  public:
   using Real = typename Code::Real;
-  Watch(Code& code, Exact& exact) : code_(code), exact_(exact) {}
+  // cancels: is grad H what terms of another size leave?
+  Watch(Code& code, Exact& exact, bool cancels) : code_(code), exact_(exact), cancels_(cancels) {}
 
   // One solve of a stepper with exact_state() and step(), of the length h; false if it fails.
   template <class Stepper>
@@ -261,11 +262,11 @@ class Watch {
   }
 
   // r of stage j.
-  Vector residual_of_rounding(const Equations& e, const Vector& y, const Vector& way, Quad h,
-                              bool cancels) const {
+  Vector residual_of_rounding(const Equations& e, const Vector& y, const Vector& way,
+                              Quad h) const {
     Vector r = rounding(y, 0x1p-40);
-    const Vector error = cancels ? gradient_error(y, way, {0, -1.0 / 32, 1.0 / 32}, h)
-                                 : gradient_error(y, field(y), h);
+    const Vector error = cancels_ ? gradient_error(y, way, {0, -1.0 / 32, 1.0 / 32}, h)
+                                  : gradient_error(y, field(y), h);
     for (std::size_t k = 0; k < y.size(); ++k) {
       r[k] += error[k];
       for (std::size_t l = 0; l < e.c.size(); ++l) {
@@ -280,7 +281,6 @@ class Watch {
     const std::size_t size = z.size();
     const std::size_t s = e.stages();
     const std::vector<Vector> y = stages(e, z, exact);
-    const bool cancels = defects.name.find("near_rest") != std::string::npos;
     // A few digits of A^-1 are enough.
     std::vector<std::vector<double>> a = unit<double>(s * size);
     Matrix lack(s, Vector(size));  // of the exact step
@@ -292,7 +292,7 @@ class Watch {
     }
     for (std::size_t j = 0; j < s; ++j) {
       const Vector f = field(y[j]);
-      const Vector rounding_of_stage = residual_of_rounding(e, y[j], way(z, exact.end), h, cancels);
+      const Vector rounding_of_stage = residual_of_rounding(e, y[j], way(z, exact.end), h);
       r.insert(r.end(), rounding_of_stage.begin(), rounding_of_stage.end());
       for (std::size_t i = 0; i < s; ++i) {
         for (std::size_t k = 0; k < size; ++k) lack[i][k] -= h * coupled(e, i, j, k, f);
@@ -365,6 +365,7 @@ class Watch {
 
   Code& code_;
   Exact& exact_;
+  bool cancels_;
 };
 
 }  // namespace hamgen::contract
