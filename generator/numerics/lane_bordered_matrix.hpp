@@ -23,9 +23,16 @@ class BorderedMatrix {
       corner_.put(row - inside, column - inside, value);
     }
   }
-  // False in lanes whose matrix, or what is within its border, is singular or not finite.
+  // False in lanes whose matrix is singular or not finite.
   Mask factorise() {
-    const Mask regular = band_.factorise();
+    filled_ = band_;
+    Mask regular = band_.factorise();
+    if (!all(regular)) {
+      for (int i = 0; i < inside; ++i) filled_.put(i, i, Real(find_shift()));
+      const Mask moved = filled_.factorise();
+      band_.take(!regular, filled_);
+      regular = regular | moved;
+    }
     for (int k = 0; k < Border; ++k) {
       band_.solve(column_[k]);
       for (int j = 0; j < Border; ++j) corner_.put(j, k, -product(row_[j], column_[k]));
@@ -56,13 +63,19 @@ class BorderedMatrix {
   }
 
  private:
+  // A power of two near the root of a rounding unit.
+  static constexpr double find_shift() {
+    double power = 1;
+    while (power * power > epsilon) power /= 2;
+    return power;
+  }
   static Real product(const Real (&a)[inside], const Real (&b)[inside]) {
     Real sum = 0;
     for (int i = 0; i < inside; ++i) sum += a[i] * b[i];
     return sum;
   }
 
-  Band band_;
+  Band band_, filled_;
   DenseMatrix<Border> corner_;
   Real column_[Border][inside] = {};  // of the border, then by what they move the inside
   Real row_[Border][inside] = {};

@@ -117,9 +117,20 @@ std::vector<int> met_by_many(const Mechanics& mechanics, const FamilyParameters&
                              bool reduced, bool single) {
   const int n = mechanics.degrees_of_freedom;
   std::set<int> found;
+  // Of an element those of the other arrays too, which then still have one length.
   const auto add = [&](int i) {
-    found.insert(i % n);
-    if (!reduced) found.insert(i % n + n);
+    const std::vector<QuantityList::Run>& runs = mechanics.variables.runs();
+    const QuantityList::Run* own = nullptr;
+    for (const QuantityList::Run& run : runs) {
+      if (static_cast<int>(run.begin) <= i % n) own = &run;
+    }
+    for (const QuantityList::Run& run : runs) {
+      const int begin = static_cast<int>(run.begin);
+      if (begin >= n || (&run != own && (run.count == 1 || run.count != own->count))) continue;
+      const int each = begin + i % n - static_cast<int>(own->begin);
+      found.insert(each);
+      if (!reduced) found.insert(each + n);
+    }
   };
   for (const Kernel& kernel : kernels_of_matrix(mechanics, member)) {
     if (kernel.ranges.empty() || (reduced && uses_momenta(kernel))) continue;

@@ -1,4 +1,6 @@
 // Linear systems whose unknowns stand in another order than that of the state.
+#include <cmath>
+
 #include "tests/numerics_blocks/linear_systems.hpp"
 
 namespace hamgen::numerics_blocks_test {
@@ -62,6 +64,14 @@ TYPED_TEST(Orders, ABorderOfFullRowsAndColumnsIsEliminatedAfterTheBand) {
     EXPECT_GE(again, 0);
     EXPECT_LT(again, 20000) << run;
   }
+  // What is inside is singular, and the border holds it.
+  Real held[8][8] = {};
+  for (int i = 0; i < 6; ++i) held[i][i] = i == 3 ? Real(0) : Real(1);
+  held[3][6] = held[6][3] = held[7][7] = 1;
+  // A solve errs by the root of a unit.
+  const double of_held = this->template error<8>(bordered, held);
+  EXPECT_GE(of_held, 0);
+  EXPECT_LT(of_held, 16 / std::sqrt(static_cast<double>(TypeParam::unit)));
   // A border that is nothing but zeros.
   Real entry[8][8] = {};
   for (int i = 0; i < 6; ++i) entry[i][i] = 1;

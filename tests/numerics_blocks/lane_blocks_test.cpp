@@ -80,9 +80,10 @@ struct Sides {
   }
 };
 
-// Every lane has pivots of its own; that of lane 3 is singular, and lane 5 has a NaN.
+// Every lane has pivots of its own; that of lane 3 is singular, which a border may not show, and
+// lane 5 has a NaN.
 template <class Together, class Alone>
-void expect_solved_as_alone(int width) {
+void expect_solved_as_alone(int width, bool shows = true) {
   Numbers numbers;
   Together together;
   Alone alone[kLanes];
@@ -91,7 +92,7 @@ void expect_solved_as_alone(int width) {
   const packs::Mask regular = together.factorise();
   together.solve(sides.together);
   for (int lane = 0; lane < kLanes; ++lane) {
-    EXPECT_EQ(regular[lane], lane != 3 && lane != 5) << lane;
+    EXPECT_EQ(regular[lane], (lane != 3 || !shows) && lane != 5) << lane;
     ASSERT_EQ(alone[lane].factorise(), regular[lane]) << lane;
     if (!regular[lane]) continue;
     alone[lane].solve(sides.alone[lane]);
@@ -113,7 +114,8 @@ TEST(LaneBlocks, ABandIsSolvedInEachLaneBitForBitAsAlone) {
 
 TEST(LaneBlocks, ABorderIsSolvedInEachLaneBitForBitAsAlone) {
   expect_solved_as_alone<packs::BorderedMatrix<packs::DenseMatrix<kRows - 2>, 2>,
-                         of_double::BorderedMatrix<of_double::DenseMatrix<kRows - 2>, 2>>(kRows);
+                         of_double::BorderedMatrix<of_double::DenseMatrix<kRows - 2>, 2>>(kRows,
+                                                                                          false);
 }
 
 TEST(LaneBlocks, ASymmetricBandIsSolvedInEachLaneBitForBitAsAlone) {

@@ -137,6 +137,13 @@ TEST(LargePlan, AVariableThatAllMeetIsABorder) {
   EXPECT_TRUE(
       contains(last.header, "using Matrix = BorderedMatrix<SymmetricBandMatrix<40, 1>, 1>;"))
       << last.plan;
+  // With an element those beside it in other arrays.
+  const Outcome element = outcome(
+      "size N = 40\ncoordinate q[1..N], x[1..N]\nmomentum p[1..N], y[1..N]\n"
+      "H = sum(i = 1..N, p[i]^2/2 + y[i]^2/2 + (q[i] - x[i])^4 + cos(q[i] - q[3]))\n");
+  EXPECT_TRUE(contains(element.header, "BorderedMatrix<SymmetricBandMatrix<78, 1>, 2>"))
+      << element.plan;
+  EXPECT_TRUE(contains(element.header, "false, 2, 42>>;")) << element.plan;
   const Outcome free = outcome(
       "size N = 40\ncoordinate x, q[1..N]\nmomentum y, p[1..N]\n"
       "H = sum(i = 1..N, p[i]^2/2) + y^2/2 + sum(i = 1..N, (q[i] - x)^4/4)\n");
