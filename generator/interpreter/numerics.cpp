@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "generator/base/diagnostic.hpp"
+#include "generator/program/program.hpp"
 
 namespace hamgen {
 
@@ -372,10 +373,9 @@ std::unique_ptr<AnyMatrix<Real>> Blocks<Real>::matrix(std::vector<int> place, bo
     const auto of = [&](auto matrix) -> std::unique_ptr<AnyMatrix<Real>> {
       using Band = typename decltype(matrix)::type;
       if (border == 0) return std::make_unique<MatrixOf<Real, most, Band>>(std::move(place));
-      constexpr int kBorder = 8;
       for (int& row : place) row += row < inside ? 0 : most - inside;
-      using Bordered = typename NumericsOf<Real>::template Bordered<Band, kBorder>;
-      return std::make_unique<MatrixOf<Real, most + kBorder, Bordered>>(std::move(place));
+      using Bordered = typename NumericsOf<Real>::template Bordered<Band, kWidestBorder>;
+      return std::make_unique<MatrixOf<Real, most + kWidestBorder, Bordered>>(std::move(place));
     };
     return symmetric ? of(std::type_identity<Symmetric>()) : of(std::type_identity<Dense>());
   });

@@ -36,13 +36,11 @@ long stride_of(const Kernel& kernel) {
   return 1;
 }
 
-// Where each instance meets a fixed number of others, or all of them in t alone.
-void require_neighbours(const Mechanics& mechanics, const Kernel& kernel) {
+// Where each instance meets a fixed number of others, but for an element that all meet.
+void require_neighbours(const Kernel& kernel) {
   if (kernel.ranges.size() > 1) throw NotLocal{"a sum over several indices"};
   for (const Slot& slot : kernel.slots) {
     const bool moves = !slot.position.factors.empty();
-    if (is_fixed(kernel, slot) && !mechanics.is_time(slot.position))
-      throw NotLocal{fmt::format("{} in every summand of a sum", slot.symbol)};
     if (moves && std::abs(factor_of(slot.position)) != stride_of(kernel))
       throw NotLocal{fmt::format("{} beside {}, whose distance grows", kernel.slots.front().symbol,
                                  slot.symbol)};
@@ -139,7 +137,7 @@ class KernelSeries {
         tables_(coordinate_chart({Expression::symbol("q"), Expression::symbol("p")}, gauge)),
         terms_{{}, mechanics.kernels} {
     for (const Kernel& kernel : mechanics.kernels) {
-      require_neighbours(mechanics, kernel);
+      require_neighbours(kernel);
       stride_ = std::lcm(stride_, stride_of(kernel));
     }
   }

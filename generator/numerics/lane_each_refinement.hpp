@@ -1,6 +1,6 @@
 // The end of a fixed-point iteration, below the last place of its unknowns, in each lane as for one
 // trajectory (refinement.hpp has the reasons).  A lane that wants no more has its rounded point
-// again, and keeps what was found there.
+// again, and keeps what was found there.  In double one form of the equations is enough.
 template <int Size, int Components, bool RoundsBeside = false, bool = false>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.

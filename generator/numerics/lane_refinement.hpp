@@ -2,6 +2,7 @@
 // is there before it is known whether one is wanted: all of it hangs on that point.
 template <class Lanes, class Refinement>
 struct RefinementInLanes : Refinement {
+  static_assert(!Refinement::looks_twice, "in double one form is enough");
   static constexpr int width = sizeof(Lanes) / sizeof(double);
   static constexpr int size = Refinement::size;
   bool operator()(double* point, const double* lack, const double* gradient) {

@@ -15,7 +15,7 @@ namespace hamgen {
          (two_forms ? second : first) + ">";
 }
 [[nodiscard]] inline bool has_two_forms(const std::string& refinement_type) {
-  return refinement_type.ends_with("e, true>");
+  return refinement_type.ends_with(", true, true>") || refinement_type.ends_with(", false, true>");
 }
 
 }  // namespace hamgen

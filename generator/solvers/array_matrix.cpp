@@ -13,7 +13,6 @@ namespace {
 // of lattices, Newton's steps are as long at w = 75, those of a constant matrix at w = 28.
 constexpr int kWidestBand = 64;
 constexpr int kWidestConstantBand = 24;  // of a matrix that is eliminated once
-constexpr std::size_t kWidestBorder = 8;
 // A dense matrix of this size is half a megabyte of the object that takes the steps.
 constexpr int kLargestOwn = 256;
 constexpr int kLargestDense = 1024;
@@ -160,7 +159,7 @@ std::optional<ArrayMatrix> choose_matrix(const Mechanics& mechanics, const Famil
   if (is_narrow_band(best) && best.bandwidth <= widest) return best;
   for (const bool single : {false, true}) {
     std::vector<int> border = met_by_many(mechanics, member, reduced, single);
-    if (border.empty() || border.size() > kWidestBorder) continue;
+    if (border.empty() || border.size() > std::size_t{kWidestBorder}) continue;
     ArrayMatrix bordered = narrowest_band(mechanics, member, reduced, std::move(border));
     if (is_narrow_band(bordered) && bordered.bandwidth <= widest) return bordered;
   }

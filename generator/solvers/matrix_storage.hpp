@@ -12,6 +12,8 @@ enum class MatrixKind {
   eigen_dense,  // the same by Eigen where it is large
   eigen_sparse
 };
+// Unknowns of a border: the planner takes no more, and the interpreter has room for these.
+inline constexpr int kWidestBorder = 8;
 struct ArrayMatrix {
   MatrixKind kind = MatrixKind::eigen_sparse;
   int size = 0;
