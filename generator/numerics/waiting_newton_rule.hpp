@@ -1,4 +1,5 @@
-// NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
+// NewtonRuleOfMany of an iteration that many steps do without: these are not watched, and what is
+// predicted serves another one.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
   using Watched = NewtonRuleOfMany<Power, Unknowns>;
@@ -11,7 +12,7 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
   template <class Past, class Solution>
   void watch(const Past& past, const Solution& solution, int first, int count) {
     if (used) {
-      Watched::watch(past, solution, first, count);
+      Watched::watch_motion(past, solution, first, count);
     } else {
       this->motion = {};
     }

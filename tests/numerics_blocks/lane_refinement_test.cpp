@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <type_traits>
 
 #include "tests/numerics_blocks/lane_rules.hpp"
@@ -198,6 +199,37 @@ TEST(LaneRefinement, WhatDoesNotContractIsNotFoundInEachLaneAsAlone) {
       EXPECT_EQ(together.found[lane], alone.found) << factor(lane);
     }
   }
+}
+
+// x = s + (x - s)/8 from 0, s a third of a unit of 1: rounded beside another length in each lane.
+TEST(LaneRefinement, ALengthBesideCountsInEachLaneAsAlone) {
+  const double lengths[kCount] = {0, 0x1p-40, 0x1p-12, 0x1p-8, 0x1p-4, 0x1p-2, 1, 0x1p+8};
+  const double end = 0x1p-52 / 3;
+  lanes::Refinement<1, 1, true> together;
+  for (int lane = 0; lane < kCount; ++lane) together.beside.set(lane, lengths[lane]);
+  const auto rounds = [&](auto& x, const auto& look) {
+    int count = 0;
+    for (bool more = true; more; ++count) {
+      const std::remove_cvref_t<decltype(x[0])> lack[1] = {(end - x[0]) * 0.875};
+      more = look(x, lack);
+    }
+    return count;
+  };
+  lanes::Real x[1] = {0};
+  const int most = rounds(x, [&](auto& point, const auto& lack) {
+    return together(turn_of_all(), point, lack, point);
+  });
+  std::set<int> counts;
+  for (int lane = 0; lane < kCount; ++lane) {
+    of_double::Refinement<1, 1, true> alone;
+    alone.beside = lengths[lane];
+    double y[1] = {0};
+    counts.insert(
+        rounds(y, [&](auto& point, const auto& lack) { return alone(point, lack, point); }));
+    EXPECT_EQ(together.change[0][lane], alone.change[0]) << lane;
+  }
+  EXPECT_EQ(most, *counts.rbegin());
+  EXPECT_GE(counts.size(), 3u);
 }
 
 TEST(LaneRefinement, WhatIsLostIsNotWaitedForInEachLaneAsAlone) {

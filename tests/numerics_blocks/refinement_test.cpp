@@ -11,19 +11,20 @@ class Refinement : public ::testing::Test {
   using Number = typename Blocks::Scalar;
   using Refined = typename Blocks::template Refined<1, 1>;
 
-  // Of x -> s + ratio (x - s) from the rounded 1, s a 3rd of a unit above: the rounds it takes;
-  // what the gradient x - 1 is off by at the end, in units, is left in `error`.
-  static int rounds(Refined& refinement, Number ratio, Number& error) {
+  // Of x -> s + ratio (x - s) from the rounded 1 (or 0), s a 3rd of a unit of 1 above: the rounds
+  // it takes; what the gradient x - 1 (or x) is off by at the end, in units, is left in `error`.
+  template <class OfOne>
+  static int rounds(OfOne& refinement, Number ratio, Number& error, Number from = 1) {
     const Number third = Blocks::unit / 3;
-    Number point[1] = {1};
+    Number point[1] = {from};
     int count = 0;
     for (bool more = true; more; ++count) {
-      const Number by = point[0] - 1;
+      const Number by = point[0] - from;
       const Number lack[1] = {(1 - ratio) * (third - by)};
       const Number slope[1] = {by};
       more = refinement(point, lack, slope);
     }
-    EXPECT_EQ(point[0], Number(1));
+    EXPECT_EQ(point[0], from);
     EXPECT_TRUE(refinement.found);
     EXPECT_EQ(refinement.slope[0], Number(0));
     error = Blocks::absolute(refinement.change[0] - third) / Blocks::unit;
@@ -64,6 +65,24 @@ TYPED_TEST(Refinement, TheContractionSparesARound) {
   typename TestFixture::Refined slow;
   EXPECT_EQ(taken(slow, 4), 4);
   EXPECT_EQ(taken(slow, 4), 4);
+}
+
+// An unknown near zero that is rounded beside a 1 takes the rounds of one at 1; by itself it takes
+// those that its own units are worth.
+TYPED_TEST(Refinement, WhatIsRoundedBesideALengthEndsByItsUnits) {
+  using Real = typename TestFixture::Number;
+  for (const int bits : {1, 2, 4, 6}) {
+    const Real ratio = TypeParam::two_to(-bits);
+    typename TestFixture::Refined at_one;
+    typename TestFixture::Refined alone;
+    typename TypeParam::template Refined<1, 1, true> beside;
+    beside.beside = 1;
+    Real error = 0;
+    const int expected = this->rounds(at_one, ratio, error);
+    EXPECT_EQ(this->rounds(beside, ratio, error, 0), expected) << bits;
+    EXPECT_LE(static_cast<double>(ratio * error), 0x1p-13) << bits;
+    EXPECT_GT(this->rounds(alone, ratio, error, 0), expected) << bits;
+  }
 }
 
 // However fast it has been: what a slower round shows counts at once.
