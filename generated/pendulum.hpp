@@ -71,11 +71,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_d102ca8c::float64 {
+namespace hamgen_418c1083::float64 {
 using Real = double;
 
-#ifndef HAMGEN_D102CA8C_FLOAT64_STEP_REPORT
-#define HAMGEN_D102CA8C_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_418C1083_FLOAT64_STEP_REPORT
+#define HAMGEN_418C1083_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -85,15 +85,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_D102CA8C_FLOAT64_VOCABULARY
-#define HAMGEN_D102CA8C_FLOAT64_VOCABULARY
+#ifndef HAMGEN_418C1083_FLOAT64_VOCABULARY
+#define HAMGEN_418C1083_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_D102CA8C_FLOAT64_TWO_SUM
-#define HAMGEN_D102CA8C_FLOAT64_TWO_SUM
+#ifndef HAMGEN_418C1083_FLOAT64_TWO_SUM
+#define HAMGEN_418C1083_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -103,8 +103,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_D102CA8C_FLOAT64_SUM_WITH_REST
-#define HAMGEN_D102CA8C_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_418C1083_FLOAT64_SUM_WITH_REST
+#define HAMGEN_418C1083_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -116,14 +116,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_D102CA8C_FLOAT64_VERDICT
-#define HAMGEN_D102CA8C_FLOAT64_VERDICT
+#ifndef HAMGEN_418C1083_FLOAT64_VERDICT
+#define HAMGEN_418C1083_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_D102CA8C_FLOAT64_NEWTON_RULE
-#define HAMGEN_D102CA8C_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_418C1083_FLOAT64_NEWTON_RULE
+#define HAMGEN_418C1083_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -141,10 +141,12 @@ enum class Verdict { go_on, done, failed };
 // while an increment leaves h^2 |force^(Power)| size^Power or less (an approximate matrix is taken
 // to be no worse than the unit matrix), that is bend (size/move)^Power.  A step of one increment
 // needs this to be lost in rounding too.  Both are those of the step before, or the increment where
-// it is larger than bend, and count 2^10 times: for a force that has grown since, and for an
-// increment across the motion.  Of several unknowns, each in its own unit, they count 2^7 times,
-// and where each is asked by itself a 16th of its rounding is what an increment may leave, measured
-// or not: the bend of a linear oscillation, which leaves nothing, is counted as well.
+// it is larger than bend, and count 2^20 times, as what is measured does: for a force that has
+// grown since, for an increment across the motion, and for the bias.  Counted 2^10 times, between
+// walls exp(40 (q - 1)) at h = 0.005 the energy fell by 1.9e-19 of itself in every step.  Of
+// several unknowns, each in its own unit, they count 2^17 times, and where each is asked by itself
+// a 16th of its rounding is what an increment may leave, measured or not: the bend of a linear
+// oscillation, which leaves nothing, is counted as well.
 //
 // Note [what is below rounding]
 // An increment below rounding ends an exact iteration.  Of an approximate one it leaves the
@@ -157,14 +159,6 @@ enum class Verdict { go_on, done, failed };
 // away than twice the first.  A prediction that ends beyond a pole of the force wanders, and may
 // come to another solution of the equations than the motion's: that is a failure, and the step is
 // tried again from the state.
-// Note [no better than it need be]
-// Each degree of a prediction costs something, and one increment is left in any case.  So where
-// what a degree misses, some times over, would have ended this step at once, it is enough: of
-// Henon-Heiles (h = 0.05) the 8th of the 12 that predict better and better.  As long as it is, the
-// one below it is asked as well.  But what an oscillation misses is next to nothing twice in each
-// of its turns: the 8 times are 64 times as many where more than one of 16 steps took another
-// increment, and go back to 8 in some 500 steps.
-//
 struct Motion {
   Real move = 0;
   Real bend = 0;
@@ -180,10 +174,6 @@ struct NewtonRule {
   Real far = 0;        // what was uneven in the iteration before
   bool still = false;  // has it ended with noise?
   Motion motion;
-  Real bend_limit = 0;  // what the first increment's bend was to be lost in
-  Real next_limit = 0;  // and what was measured of the next one
-  Real margin = 8;      // of predictions
-  int missed = 0;       // steps that took another increment for a poor one
 
   static constexpr Real tiny = 64 * epsilon / largest;  // next to the smallest number
   static Real power(Real size) { return Power == 2 ? size * size : size; }
@@ -194,28 +184,9 @@ struct NewtonRule {
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, class Solution>
-  void watch(Past& past, const Solution& solution, int first, int count) {
+  void watch(const Past& past, const Solution& solution, int first, int count) {
     motion.move = past.error(0, solution, first, count);
     motion.bend = past.error(Power + 1, solution, first, count);
-    if (Power == 2 && past.chooses())
-      ask(past, count, motion.move,
-          [&](int degree) { return past.error(degree, solution, first, count); });
-  }
-  // What the predictions of a degree miss: see Note [no better than it need be].
-  template <class Past, class Missing>
-  __attribute__((noinline)) void ask(Past& past, int count, Real move, const Missing& missing) {
-    if (missed > 1) {
-      margin = margin < 16384 ? 64 * margin : Real(1048576);
-    } else if (margin > 8) {
-      margin = 7 * margin / 8;
-    }
-    missed = 0;
-    const int best = past.degree();
-    for (int degree = best > 0 ? best - 1 : best; degree <= best; ++degree) {
-      const Real size = margin * missing(degree);
-      if (is_straight(size, bend_limit, move) && is_next_lost(size, next_limit))
-        return past.is_enough(degree, count);
-    }
   }
   // size, scale: of the increment and of the value.
   Verdict operator()(Real size, Real scale, int iterations) {
@@ -226,11 +197,9 @@ struct NewtonRule {
   }
   // Most steps do, with their first increment: where what the motion shows, and what was measured,
   // is lost in this.
-  bool ends_at_once(Real size, Real bend_in, Real next_in, Real move) {
-    bend_limit = bend_in;
-    next_limit = next_in;
+  bool ends_at_once(Real size, Real shown, Real measured, Real move) {
     const bool ends =
-        unchecked < 31 && is_straight(size, bend_limit, move) && is_next_lost(size, next_limit);
+        unchecked < 31 && is_straight(size, shown, move) && is_next_lost(size, measured);
     unchecked += ends;
     return ends;
   }
@@ -274,11 +243,10 @@ struct NewtonRule {
     const bool near = !Many || !first || each.is_in_reach();
     const bool serves = near && (Power == 1 ? !waits : uneven <= 0 || is_even(size, uneven));
     if (size <= round_off && is_chance(size, round_off) && (serves || stays)) return Verdict::done;
-    const Real bend_in = Many ? 8 * round_off : seen_in(scale);
-    const bool looked = !first || (unchecked < 32 && is_straight(size, bend_in, motion.move));
+    const Real shown = Many ? 8 * round_off : seen_in(scale);
+    const bool looked = !first || (unchecked < 32 && is_straight(size, shown, motion.move));
     const bool reaches = !Many || first || Power == 1 || size * size * size <= epsilon * round_off;
     if (looked && serves && reaches && is_next_lost(size, round_off)) return Verdict::done;
-    missed += first && unchecked < 32;
     const bool astray = predicted && iterations > 1 && 2 * size > previous && !each.is_within(4096);
     previous = size;
     // Noise may turn in circles and never be twice in a row what it was.
@@ -314,9 +282,9 @@ struct NewtonRule {
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off, Real move) const {
-    return bend_of(size) * power(size) * 1024 <= round_off * power(move);
+    return bend_of(size) * power(size) * 1048576 <= round_off * power(move);
   }
-  // What the motion shows must be lost in the rounding of a single unknown, and 1024 times in 1024
+  // What the motion shows must be lost in the rounding of a single unknown, and in that of 1024
   // times its way: a momentum that moves it may be torn out, and is rounded as that.
   Real seen_in(Real scale) const {
     const Real near = 1024 * motion.move + epsilon * scale;
@@ -327,14 +295,13 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_D102CA8C_FLOAT64_HISTORY
-#define HAMGEN_D102CA8C_FLOAT64_HISTORY
+#ifndef HAMGEN_418C1083_FLOAT64_HISTORY
+#define HAMGEN_418C1083_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
-// The degree is chosen anew every 16th step: the one that predicted best that time, or a lower one
-// that is enough for all that the solution serves.  As long as the best is one of the highest
-// known, the next one is tried.
+// The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
+// that is one of the highest known, the next one is tried.
 template <int Unknowns>
 struct History {
   // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
@@ -344,17 +311,7 @@ struct History {
   int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
-  int enough = 0;  // a degree that is
-  int asked = 0;   // for so many unknowns
 
-  // Is what is enough asked now?
-  bool chooses() const { return age == 15 && known > 3; }
-  int degree() const { return best; }
-  // This is for `count` unknowns, no other than those of earlier calls.
-  void is_enough(int degree, int count) {
-    enough = degree > enough ? degree : enough;
-    asked += count;
-  }
   void record(const Real (&solution)[Unknowns]) {
     if (++age == 16) choose(solution);
     if constexpr (many) {
@@ -392,13 +349,6 @@ struct History {
   // Seldom done, and no part of a step's code.
   __attribute__((noinline)) void choose(const Real (&solution)[Unknowns]) {
     age = 0;
-    const bool serves = asked == Unknowns;
-    if (serves) best = enough;
-    enough = asked = 0;
-    if (serves) {
-      if (best + 1 < known && known > 4) --known;
-      return;
-    }
     Real least = 0;
     for (int degree = 0; degree < known; ++degree) {
       const Real now = error(degree, solution, 0, Unknowns);
@@ -447,8 +397,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_D102CA8C_FLOAT64_FORGET
-#define HAMGEN_D102CA8C_FLOAT64_FORGET
+#ifndef HAMGEN_418C1083_FLOAT64_FORGET
+#define HAMGEN_418C1083_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -458,8 +408,8 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-#ifndef HAMGEN_D102CA8C_FLOAT64_AHEAD
-#define HAMGEN_D102CA8C_FLOAT64_AHEAD
+#ifndef HAMGEN_418C1083_FLOAT64_AHEAD
+#define HAMGEN_418C1083_FLOAT64_AHEAD
 // What the polynomial that predicts the next solution says of the one after it: with s_d the next
 // one's predictions and D the degree it is taken of,
 //   (D + 1) s_D - s_0 - ... - s_(D-1),
@@ -474,17 +424,17 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 }
 #endif
 
-}  // namespace hamgen_d102ca8c::float64
+}  // namespace hamgen_418c1083::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x878049a6
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x2a332c33
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_878049a6 {
+inline namespace emitted_2a332c33 {
 
-namespace numerics = ::hamgen_d102ca8c::float64;
+namespace numerics = ::hamgen_418c1083::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget, numerics::extrapolate_twice;
 
@@ -675,9 +625,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_878049a6
+}  // namespace emitted_2a332c33
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x878049a6
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x2a332c33
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

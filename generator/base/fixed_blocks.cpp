@@ -116,7 +116,7 @@ constexpr FixedBlock kCBlocks[] = {
     {"newton_rule",
      "Verdict go_on done failed NewtonRule NewtonRule_of_power NewtonRule_power NewtonRule_begin "
      "NewtonRule_felt NewtonRule_relative NewtonRule_is_lost_in NewtonRule_learn NewtonRule_judge "
-     "NewtonRule_seen_in NewtonRule_is_in_reach NewtonRule_is_still "
+     "NewtonRule_is_in_reach NewtonRule_is_still "
      "NewtonRule_size_of NewtonRule_know NewtonRule_follow "
      "NewtonRule_of_each "
      "NewtonRule_check"},

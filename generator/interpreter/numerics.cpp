@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numeric>
 #include <type_traits>
-#include <utility>
 
 #include "generator/base/diagnostic.hpp"
 #include "generator/program/program.hpp"
@@ -41,7 +40,6 @@ class HistoryOf final : public AnyHistory<Real> {
   [[nodiscard]] bool known() const override { return history_.known > 0; }
   void record(std::span<const Real> solution) override {
     history_.record(Padded<Real, Size>(solution).padded);
-    padding_ = Size - static_cast<int>(solution.size());
   }
   void extrapolate(std::span<Real> solution) const override {
     Padded<Real, Size> all(solution);
@@ -63,15 +61,9 @@ class HistoryOf final : public AnyHistory<Real> {
   [[nodiscard]] Real way(std::span<const Real> solution, int i) const override {
     return history_.way(solution, i);
   }
-  [[nodiscard]] bool chooses() const override { return history_.chooses(); }
-  [[nodiscard]] int degree() const override { return history_.degree(); }
-  void is_enough(int degree, int count) override {
-    history_.is_enough(degree, count + std::exchange(padding_, 0));
-  }
 
  private:
   typename NumericsOf<Real>::template Past<Size> history_;
-  int padding_ = 0;  // which any degree is enough for
 };
 
 // Of a single unknown where Size is 0.
@@ -84,12 +76,12 @@ class NewtonRuleOf final : public AnyNewtonRule<Real> {
     rule_.begin(predicted);
     used_ = true;
   }
-  void watch(AnyHistory<Real>& past, std::span<const Real> solution, int first,
+  void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
              int count) override {
-    if (!waits_) return rule_.watch(past, solution, first, count);
-    rule_.motion = {};
-    if constexpr (Size > 0) {
-      if (used_) rule_.watch_motion(past, solution, first, count);
+    if (used_ || !waits_) {
+      rule_.watch(past, solution, first, count);
+    } else {
+      rule_.motion = {};
     }
     used_ = false;
   }
@@ -143,7 +135,7 @@ class LinearRuleOf final : public AnyNewtonRule<Real> {
  public:
   using Sums = typename AnyNewtonRule<Real>::Sums;
   void begin(bool /*predicted*/) override { rule_.begin(); }
-  void watch(AnyHistory<Real>& /*past*/, std::span<const Real> /*solution*/, int /*first*/,
+  void watch(const AnyHistory<Real>& /*past*/, std::span<const Real> /*solution*/, int /*first*/,
              int /*count*/) override {}
   Answer of_sums(std::span<const Real> /*values*/, std::span<const Real> /*increments*/,
                  const Sums& sums, int iteration) override {

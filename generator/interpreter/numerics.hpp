@@ -65,9 +65,6 @@ struct AnyHistory {
   [[nodiscard]] virtual Real difference(int degree, std::span<const Real> solution,
                                         int i) const = 0;
   [[nodiscard]] virtual Real way(std::span<const Real> solution, int i) const = 0;
-  [[nodiscard]] virtual bool chooses() const = 0;
-  [[nodiscard]] virtual int degree() const = 0;
-  virtual void is_enough(int degree, int count) = 0;
 };
 template <class Real>
 struct AnyMatrix {
@@ -83,7 +80,7 @@ template <class Real>
 struct AnyNewtonRule {
   virtual ~AnyNewtonRule() = default;
   virtual void begin(bool predicted) = 0;
-  virtual void watch(AnyHistory<Real>& past, std::span<const Real> solution, int first,
+  virtual void watch(const AnyHistory<Real>& past, std::span<const Real> solution, int first,
                      int count) = 0;
   // Of a rule that looks at the matrix of so many unknowns.
   virtual void compare(const AnyMatrix<Real>& /*matrix*/, int /*count*/) {}

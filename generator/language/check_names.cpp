@@ -111,6 +111,10 @@ class NameCheck {
     if (name == "nan" || name == "inf" || name == "infinity") {
       return fail(node.span, fmt::format("'{}' is not a finite number", name), "give a number");
     }
+    if ((name == "t" || name == "time") && role_.kinds.contains(SymbolKind::coordinate)) {
+      return fail(node.span, fmt::format("unknown name '{}'", name),
+                  fmt::format("a line of its own declares it: time {}", name));
+    }
     std::vector<std::string> candidates = symbols_.names(role_.kinds);
     candidates.insert(candidates.end(), indices_.begin(), indices_.end());
     fail(node.span, fmt::format("unknown name '{}'", name), symbols_.suggestion(name, candidates));

@@ -1,9 +1,8 @@
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
-// The degree is chosen anew every 16th step: the one that predicted best that time, or a lower one
-// that is enough for all that the solution serves.  As long as the best is one of the highest
-// known, the next one is tried.
+// The degree is chosen anew every 16th step: the one that predicted best that time.  As long as
+// that is one of the highest known, the next one is tried.
 template <int Unknowns>
 struct History {
   // Each degree is a copy of all unknowns: for many of them it must be worth its memory.
@@ -13,17 +12,7 @@ struct History {
   int known = 0;  // degrees that are kept up to date
   int best = 0;
   int age = 15;
-  int enough = 0;  // a degree that is
-  int asked = 0;   // for so many unknowns
 
-  // Is what is enough asked now?
-  bool chooses() const { return age == 15 && known > 3; }
-  int degree() const { return best; }
-  // This is for `count` unknowns, no other than those of earlier calls.
-  void is_enough(int degree, int count) {
-    enough = degree > enough ? degree : enough;
-    asked += count;
-  }
   void record(const Real (&solution)[Unknowns]) {
     if (++age == 16) choose(solution);
     if constexpr (many) {
@@ -61,13 +50,6 @@ struct History {
   // Seldom done, and no part of a step's code.
   __attribute__((noinline)) void choose(const Real (&solution)[Unknowns]) {
     age = 0;
-    const bool serves = asked == Unknowns;
-    if (serves) best = enough;
-    enough = asked = 0;
-    if (serves) {
-      if (best + 1 < known && known > 4) --known;
-      return;
-    }
     Real least = 0;
     for (int degree = 0; degree < known; ++degree) {
       const Real now = error(degree, solution, 0, Unknowns);

@@ -143,7 +143,7 @@ struct NewtonRule : Iteration {
   }
   // Is bend (size / move)^Power lost in rounding?
   Mask is_straight(const Real& size, const Real& round_off) const {
-    return bend_of(size) * power(size) * 1024 <= round_off * power(motion.move);
+    return bend_of(size) * power(size) * 1048576 <= round_off * power(motion.move);
   }
   Real bend_of(const Real& size) const { return select(motion.bend > size, motion.bend, size); }
 };

@@ -133,12 +133,12 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   bool ends_at_once(const Real& size, const Real& shortest, int count) {
     if (this->checks) return false;
     const double round_off = epsilon * count;
-    const Real least = 32 * epsilon * shortest;
+    const Real least = 32768 * epsilon * shortest;
     const Real shown = select(least < 4 * round_off, least, Real(4 * round_off));
-    const Real measured = select(2048 * least < round_off, 1024 * least, Real(round_off / 2));
+    const Real measured = select(2 * least < round_off, least, Real(round_off / 2));
     const Real slow = this->motion.least;
     const Mask ends = this->is_next_lost(size, measured) & !this->unmeasured &
-                      (this->bend_of(size) * size * size * 1024 <= shown * slow * slow);
+                      (this->bend_of(size) * size * size * 1048576 <= shown * slow * slow);
     if (!all((!this->open) | ends)) return false;
     this->taken = select(this->open, Real(1), this->taken);
     this->still = false;

@@ -104,12 +104,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   }
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, class Solution>
-  void watch(Past& past, const Solution& solution, int first, int count) {
-    watch_motion(past, solution, first, count);
-    if (Power == 2 && past.chooses()) ask_each(past, solution, first, count);
-  }
-  template <class Past, class Solution>
-  void watch_motion(const Past& past, const Solution& solution, int first, int count) {
+  void watch(const Past& past, const Solution& solution, int first, int count) {
     notice(&solution[first], count);
     Real move = 0;
     Real bend = 0;
@@ -124,15 +119,6 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     }
     this->motion = {move, bend, slowest};
     doubt();
-  }
-  template <class Past, class Solution>
-  void ask_each(Past& past, const Solution& solution, int first, int count) {
-    this->ask(past, count, this->motion.least, [&](int degree) {
-      Real size = 0;
-      for (int j = 0; j < count; ++j)
-        size += past.difference(degree, solution, first + j) * unit[j];
-      return size;
-    });
   }
   // See Note [what its own motion shows of each].
   bool is_in_reach(const Real* moved, const Real* length, const Real* way, int count) const {
@@ -182,16 +168,16 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
                   int iterations) {
     const Seen seen = sums_of(moved, length, way, count);
-    // What is 16 times lost in the rounding of the least unknown is 1024 times lost in 64 times it,
-    // and 2^20 times in 2^16 times it: with the factors of ends_at_once.
+    // What is 16 times lost in the rounding of the least unknown is 2^20 times lost in 2^16 times
+    // it: with the factor of ends_at_once.
     const Real round_off = epsilon * Real(count);
-    const Real least = 64 * epsilon * seen.shortest;
-    const Real bend_in = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
-    const Real next_in = Power == 2 && 1024 * least < round_off ? 1024 * least : round_off;
+    const Real least = 65536 * epsilon * seen.shortest;
+    const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
+    const Real measured = Power == 2 && least < round_off ? least : round_off;
     const bool even = Power == 2 || is_lost_in(seen.shortest, seen.size);
     // Of each the same where it is so of the one that moves least.
     const Real move = Power == 2 ? this->motion.least : this->motion.move;
-    if (iterations == 1 && even && this->ends_at_once(seen.size, bend_in, next_in, move))
+    if (iterations == 1 && even && this->ends_at_once(seen.size, shown, measured, move))
       return Verdict::done;
     return judge_each(seen, moved, length, way, count, iterations);
   }

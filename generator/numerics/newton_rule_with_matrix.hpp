@@ -23,9 +23,8 @@ struct NewtonRuleWithMatrix : NewtonRuleOfMany<2, Unknowns> {
 
   // The solution of a step, from the unknown `first` on, before the history records it.
   template <class Past, class Solution>
-  void watch(Past& past, const Solution& solution, int first, int count) {
+  void watch(const Past& past, const Solution& solution, int first, int count) {
     this->notice(&solution[first], count);
-    if (past.chooses()) this->ask_each(past, solution, first, count);
     for (int j = 0; j < count; ++j) ways[j] = past.way(solution, first + j);
     this->motion = {};
   }

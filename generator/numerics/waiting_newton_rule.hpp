@@ -1,5 +1,4 @@
-// NewtonRuleOfMany of an iteration that many steps do without: these are not watched, and what is
-// predicted serves another one.
+// NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
   using Watched = NewtonRuleOfMany<Power, Unknowns>;
@@ -12,7 +11,7 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
   template <class Past, class Solution>
   void watch(const Past& past, const Solution& solution, int first, int count) {
     if (used) {
-      Watched::watch_motion(past, solution, first, count);
+      Watched::watch(past, solution, first, count);
     } else {
       this->motion = {};
     }

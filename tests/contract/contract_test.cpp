@@ -210,10 +210,10 @@ TEST(ContractIsBroken, WhereOneOfTheReasonsIsLeftOut) {
 TEST(ContractIsBroken, ByARuleThatOnlyRemembers) {
   // It learns its contraction in free flight and believes it at the wall.
   const auto forget_the_motion = with(
-      {{"return bend_of(size) * power(size) * 1024 <= round_off * power(move);", "return true;"}});
+      {{"return bend_of(size) * power(size) * 1048576 <= round_off * power(move);", "return true;"}});
   for (const Case& c : {case_of("wall", "bounce", {}, 700), case_of("box", "soft", {}, 700)}) {
     const Defects d = measure({c}, forget_the_motion).at(0);
-    EXPECT_GE(d.worst, 1e5) << d.name;
+    EXPECT_GE(d.worst, 1e6) << d.name;
     EXPECT_GE(d.broken, 1) << d.name;
   }
 }

@@ -58,7 +58,7 @@ TYPED_TEST(NewtonRuleOfMany, OneIncrementIsNotEnoughForAnUnknownThatIsAllIncreme
   }
   // What was measured may be nothing, if the motion bends.
   auto rule = this->template taught<2, 2>(TypeParam::unit);
-  rule.motion.bend = TypeParam::two_to(-4);
+  rule.motion.bend = TypeParam::two_to(-8);
   rule.begin(false);
   EXPECT_EQ(sums(rule, TypeParam::unit * 4, Real(0), 1), Verdict::done);
   rule.begin(false);

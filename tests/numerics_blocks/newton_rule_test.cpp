@@ -106,34 +106,34 @@ TYPED_TEST(NewtonRule, OneIncrementIsNotEnoughWhereTheMotionBends) {
   EXPECT_EQ(this->step(linear, size), Verdict::go_on);
 }
 
-// 2^10 times what the motion shows must be lost in rounding, no more and no less.
-TYPED_TEST(NewtonRule, TheMotionIsTaken1024Times) {
+// 2^20 times what the motion shows must be lost in rounding, no more and no less.
+TYPED_TEST(NewtonRule, TheMotionIsTakenAMillionTimes) {
   using Verdict = typename TypeParam::Answer;
   using Scalar = typename TypeParam::Scalar;
   auto rule = this->template taught<2>(TypeParam::two_to(-30));
   const auto size = TypeParam::unit * 2;
   rule.motion.move = size;
-  rule.motion.bend = TypeParam::unit / 1024;
+  rule.motion.bend = TypeParam::unit / 1048576;
   // Here the increment itself is the larger bend.
   EXPECT_EQ(this->step(rule, size), Verdict::go_on);
-  // An increment whose square is a 2^-21th of a unit, a step of a 2^-8th: 2^-5 may bend.
+  // An increment whose square is a 2^-21th of a unit, a step of a 2^-8th: 2^-15 may bend.
   const auto small = this->small();
   rule.motion.move = TypeParam::two_to(-8);
-  rule.motion.bend = TypeParam::two_to(-5) * Scalar(0.99);
+  rule.motion.bend = TypeParam::two_to(-15) * Scalar(0.99);
   EXPECT_EQ(this->step(rule, small), Verdict::done);
-  rule.motion.bend = TypeParam::two_to(-2);
+  rule.motion.bend = TypeParam::two_to(-12);
   EXPECT_EQ(this->step(rule, small), Verdict::go_on);
 }
 
-// Of an unknown that hardly moves it must be lost 2^10 times in 2^10 times its way: its momentum is
+// Of an unknown that hardly moves it must be lost 2^20 times in 2^10 times its way: its momentum is
 // rounded as that.
 TYPED_TEST(NewtonRule, OfWhatHardlyMovesTheWayCounts) {
   using Verdict = typename TypeParam::Answer;
   using Scalar = typename TypeParam::Scalar;
   auto rule = this->template taught<2>(TypeParam::two_to(-30));
   const auto small = this->small();
-  const auto move = TypeParam::two_to(-14);  // 2^-4, 2^10 times
-  const auto most = move * move / TypeParam::two_to(-11) * TypeParam::two_to(-4);
+  const auto move = TypeParam::two_to(-11);  // 2^-1, 2^10 times
+  const auto most = move * move / TypeParam::two_to(-1) * TypeParam::two_to(-1);
   rule.motion.move = move;
   rule.motion.bend = most * Scalar(0.99);
   EXPECT_EQ(this->step(rule, small), Verdict::done);

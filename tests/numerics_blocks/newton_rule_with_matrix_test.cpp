@@ -113,7 +113,7 @@ TYPED_TEST(NewtonRuleWithMatrix, AnOscillationIsStraightAsLongAsItsMatrixStands)
     matrix.entry[0][0] += turns;
     rule.begin(true);
     if constexpr (requires { rule.slopes; }) rule.compare(matrix, 2);
-    const Real small = TypeParam::two_to(-(TypeParam::bits + 9) / 2);
+    const Real small = TypeParam::two_to(-(TypeParam::bits + 11) / 2);
     const Real moved[2] = {small, small};
     const Real length[2] = {1, 1};
     return rule.of_each(moved, length, length, 2, 1);

@@ -14,10 +14,6 @@ typedef struct {
   int grown;
   bool predicted;
   Real move, bend;
-  Real bend_limit;  // what the first increment's bend was to be lost in
-  Real next_limit;  // and what was measured of the next one
-  Real margin;      // of predictions
-  int missed;       // steps that took another increment for a poor one
   Real far;
   Real unit[3];   // one over the size of each of at most three unknowns; 0: not known yet
   Real moves[3];  // the motion of each, as it is written
@@ -33,7 +29,6 @@ static inline NewtonRule NewtonRule_of_power(int power) {
   rule.contraction = largest;
   rule.unchecked = 32;
   rule.fresh = 4;
-  rule.margin = 8;
   return rule;
 }
 static inline Real NewtonRule_power(const NewtonRule* rule, Real size) {
@@ -61,11 +56,6 @@ static inline void NewtonRule_learn(NewtonRule* rule, Real size, Real round_off,
 static inline Real NewtonRule_felt(const NewtonRule* rule, Real length, Real way) {
   const Real least = 16 * way + epsilon * length;
   return rule->power == 2 && least < length ? least : length;
-}
-// What the motion shows of a single unknown must be lost in this: in its way 1024 times.
-static inline Real NewtonRule_seen_in(const NewtonRule* rule, Real scale) {
-  const Real near = 1024 * rule->move + epsilon * scale;
-  return epsilon * (near < scale ? near : scale);
 }
 // Is what its own motion shows of each unknown lost?
 static inline bool NewtonRule_is_in_reach(const NewtonRule* rule, const Real* moved,
@@ -134,16 +124,17 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
       rule->previous > 0 || NewtonRule_is_in_reach(rule, moved, length, way, many);
   const bool serves = in_reach && (rule->power == 1 ? !waits : uneven <= 0 || even);
   if (size <= round_off && chance && (serves || stays)) return done;
-  const Real shown = many ? 8 * round_off : NewtonRule_seen_in(rule, scale);
+  // What the motion shows must be lost in this: of a single unknown, in 1024 times its way.
+  const Real near = 1024 * rule->move + round_off;
+  const Real shown = many ? 8 * round_off : epsilon * (near < scale ? near : scale);
   const bool straight =
-      bend * NewtonRule_power(rule, size) * 1024 <= shown * NewtonRule_power(rule, rule->move);
+      bend * NewtonRule_power(rule, size) * 1048576 <= shown * NewtonRule_power(rule, rule->move);
   const bool reaches =
       !many || rule->previous <= 0 || rule->power == 1 || size * size * size <= epsilon * round_off;
   if ((rule->previous > 0 || straight) && serves && reaches && rule->unchecked < 32 &&
       rule->contraction * NewtonRule_power(rule, size) * 1048576 <= round_off) {
     return done;
   }
-  rule->missed += rule->previous <= 0 && rule->unchecked < 32;
   const bool astray = rule->predicted && iterations > 1 && 2 * size > rule->previous &&
                       together > 4096 * epsilon * all;
   rule->previous = size;
@@ -220,12 +211,6 @@ static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, co
     nearest = gone < nearest ? gone : nearest;
   }
   const Real shortest = way == length ? least : NewtonRule_felt(rule, least, nearest);
-  if (iterations == 1) {
-    const Real round_off = epsilon * (Real)count;
-    const Real part = 64 * epsilon * shortest;
-    rule->bend_limit = part < 8 * round_off ? part : 8 * round_off;
-    rule->next_limit = 1024 * part < round_off ? 1024 * part : round_off;
-  }
   Real uneven = 0;
   if (!NewtonRule_is_lost_in(rule, shortest, size)) {
     for (int j = 0; j < count; ++j) {
@@ -252,9 +237,5 @@ static inline Verdict NewtonRule_of_each(NewtonRule* rule, const Real* moved, co
 }
 // Of a single unknown.
 static inline Verdict NewtonRule_check(NewtonRule* rule, Real size, Real scale, int iterations) {
-  if (iterations == 1) {
-    rule->bend_limit = NewtonRule_seen_in(rule, scale);
-    rule->next_limit = epsilon * scale;
-  }
   return NewtonRule_judge(rule, size, scale, iterations, 0, size, scale, &size, &scale, &scale, 0);
 }
