@@ -142,11 +142,16 @@ std::function<std::string(std::string)> with(const Instead& changes) {
   };
 }
 
+// As it was counted before its bias was seen: as it is it stands for some of the other reasons.
+const std::pair<std::string, std::string> kLessBend{"bend_of(size) * power(size) * 1048576",
+                                                    "bend_of(size) * power(size) * 1024"};
+
 TEST(ContractIsBroken, WhereTheSumOfAllIncrementsIsAskedAlone) {
   const auto forget_each =
       with({{"uneven <= 0 || is_even(", "uneven >= 0 || is_even("},
             {"bend * part * part * 16 > round_off * move * move", "part < 0"},
-            {"64 * epsilon * seen.shortest", "64 * round_off + 0 * seen.shortest"},
+            {"65536 * epsilon * seen.shortest", "65536 * round_off + 0 * seen.shortest"},
+            kLessBend,
             {"if (fresh <= 0) return;", "if (fresh > 0) --fresh; return;"},
             {"size * size * size <= epsilon * round_off", "size >= 0"}});
   const Case beads = case_of("row", "two", {.scheme = "sofroniou-spaletta-10"}, 200);
@@ -195,22 +200,27 @@ TEST(ContractIsBroken, WhereOneOfTheReasonsIsLeftOut) {
         {"Power == 2 && 1024 * this->contraction < 1", "false"},
         {"size * size * size <= epsilon * round_off", "size >= 0"}}},
       {case_of("in_flight", "quiet", {}, 60),
-       {{"this->unchecked += 32;", ""}, {"Power == 2 && 1024 * this->contraction < 1", "false"}}},
-      {case_of("in_flight_beside", "still", {}, 80), {{"slowest};\n    doubt();", "slowest};"}}},
+       {{"this->unchecked += 32;", ""},
+        {"Power == 2 && 1024 * this->contraction < 1", "false"},
+        kLessBend}},
+      {case_of("in_flight_beside", "still", {}, 80),
+       {{"slowest};\n    doubt();", "slowest};"}, kLessBend}},
       {case_of("together", "stiff", {}, 80),
        {{"size * size * size <= epsilon * round_off", "size >= 0"}}},
       {case_of("together", "fast", {}, 60),
        {{"magnitude(sum[j]) / turns[j]", "Real(1)"},
         {"Power == 2 && 1024 * this->contraction < 1", "false"},
-        {"size * size * size <= epsilon * round_off", "size >= 0"}}},
+        {"size * size * size <= epsilon * round_off", "size >= 0"},
+        kLessBend}},
       {case_of("beside_huge", "away", {}, 60), {{"return !converging;", "return true;"}}}};
   expect_broken(holes);
 }
 
 TEST(ContractIsBroken, ByARuleThatOnlyRemembers) {
   // It learns its contraction in free flight and believes it at the wall.
-  const auto forget_the_motion = with(
-      {{"return bend_of(size) * power(size) * 1048576 <= round_off * power(move);", "return true;"}});
+  const auto forget_the_motion =
+      with({{"return bend_of(size) * power(size) * 1048576 <= round_off * power(move);",
+             "return true;"}});
   for (const Case& c : {case_of("wall", "bounce", {}, 700), case_of("box", "soft", {}, 700)}) {
     const Defects d = measure({c}, forget_the_motion).at(0);
     EXPECT_GE(d.worst, 1e6) << d.name;
