@@ -104,7 +104,7 @@ struct Refinement {
     const Mask lanes = open;
     Real lacking = 0;
     const Real part = 32768 * contraction;
-    const Real counts = select(part > 32, select(part < 8192, part, Real(8192)), Real(32));
+    const Real counts = select(part > 1024, select(part < 8192, part, Real(8192)), Real(1024));
     const Real size = sum_of(Size, [&](int j) {
       const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
       const Real way = moved[j] + error;

@@ -56,11 +56,11 @@ TYPED_TEST(Refinement, TheContractionSparesARound) {
     Real error = 0;
     return this->rounds(refinement, TypeParam::two_to(-bits), error);
   };
-  // From a third of a unit a factor of 2^-8 a round: 2^-1.6, 2^-9.6; and 2^-17.6, if nothing is
-  // known.
+  // From a third of a unit a factor of 2^-9 a round: 2^-1.6, 2^-10.6, which is less than a 1024th;
+  // and 2^-19.6, if nothing is known.
   typename TestFixture::Refined fast;
-  EXPECT_EQ(taken(fast, 8), 3);
-  EXPECT_EQ(taken(fast, 8), 2);
+  EXPECT_EQ(taken(fast, 9), 3);
+  EXPECT_EQ(taken(fast, 9), 2);
   // Of 2^-4 two rounds have shown as much before the last but one.
   typename TestFixture::Refined slow;
   EXPECT_EQ(taken(slow, 4), 4);
