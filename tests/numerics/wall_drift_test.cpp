@@ -1,5 +1,5 @@
 // Between walls a particle flies freely, and each time with the energy that it came with: what
-// Newton's iteration leaves of a step at a wall must not add up.
+// an iteration leaves of a step at a wall must not add up.
 #include <gtest/gtest.h>
 
 #include <cmath>
