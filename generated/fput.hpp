@@ -143,11 +143,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_537d6679::float64 {
+namespace hamgen_df1f966f::float64 {
 using Real = double;
 
-#ifndef HAMGEN_537D6679_FLOAT64_STEP_REPORT
-#define HAMGEN_537D6679_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_DF1F966F_FLOAT64_STEP_REPORT
+#define HAMGEN_DF1F966F_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -157,15 +157,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_VOCABULARY
-#define HAMGEN_537D6679_FLOAT64_VOCABULARY
+#ifndef HAMGEN_DF1F966F_FLOAT64_VOCABULARY
+#define HAMGEN_DF1F966F_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_TWO_SUM
-#define HAMGEN_537D6679_FLOAT64_TWO_SUM
+#ifndef HAMGEN_DF1F966F_FLOAT64_TWO_SUM
+#define HAMGEN_DF1F966F_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -175,8 +175,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_SUM_WITH_REST
-#define HAMGEN_537D6679_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_DF1F966F_FLOAT64_SUM_WITH_REST
+#define HAMGEN_DF1F966F_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -188,8 +188,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_SUMS
-#define HAMGEN_537D6679_FLOAT64_SUMS
+#ifndef HAMGEN_DF1F966F_FLOAT64_SUMS
+#define HAMGEN_DF1F966F_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -240,8 +240,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_BAND_MATRIX
-#define HAMGEN_537D6679_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_DF1F966F_FLOAT64_BAND_MATRIX
+#define HAMGEN_DF1F966F_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -306,8 +306,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_537D6679_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_DF1F966F_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_DF1F966F_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -372,14 +372,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_VERDICT
-#define HAMGEN_537D6679_FLOAT64_VERDICT
+#ifndef HAMGEN_DF1F966F_FLOAT64_VERDICT
+#define HAMGEN_DF1F966F_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_NEWTON_RULE
-#define HAMGEN_537D6679_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE
+#define HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -401,8 +401,9 @@ enum class Verdict { go_on, done, failed };
 // grown since, for an increment across the motion, and for the bias.  Counted 2^10 times, between
 // walls exp(40 (q - 1)) at h = 0.005 the energy fell by 1.9e-19 of itself in every step.  Of
 // several unknowns, each in its own unit, they count 2^17 times, and where each is asked by itself
-// a 16th of its rounding is what an increment may leave, measured or not: the bend of a linear
-// oscillation, which leaves nothing, is counted as well.
+// a 2^-14th of its rounding is what an increment may leave, measured or not: the bend of a linear
+// oscillation, which leaves nothing, is counted as well.  (With a 16th twelve between such walls
+// lost 5e-4 of their roundings a step.)
 //
 // Note [what is below rounding]
 // An increment below rounding ends an exact iteration.  Of an approximate one it leaves the
@@ -531,10 +532,10 @@ struct NewtonRule {
   // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
   // lacks].
   bool is_even(Real size, Real uneven) const {
-    if (previous > 0) return uneven * 16 <= epsilon;
+    if (previous > 0) return uneven * 16384 <= epsilon;
     const Real parts = size * uneven;
-    return contraction * parts * 16 <= epsilon &&
-           bend_of(size) * parts * 16 <= epsilon * power(motion.move);
+    return contraction * parts * 16384 <= epsilon &&
+           bend_of(size) * parts * 16384 <= epsilon * power(motion.move);
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off, Real move) const {
@@ -551,8 +552,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_537D6679_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -568,7 +569,7 @@ struct NewtonRule {
 // Note [what its own motion shows of each]
 // A sum is loud where most of it is: a free particle goes a 30th in a step, and nothing in it shows
 // that another one comes to a wall exp(1e5 (y - 1)) with a 1e5th.  So each unknown is also asked by
-// itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, with the
+// itself whether its bend (increment / move)^2 is lost, a 2^-14th of its rounding at most, with the
 // increment for the bend where that is larger, and as long as it is more than noise can be.  Where
 // increments were measured the next one of each is told by its own last two, moved (moved /
 // before)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
@@ -598,9 +599,9 @@ struct NewtonRule {
 // hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
 // asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
 // of their roundings.  So 16 times the way that the step has moved it stands for its length where
-// that is less (one rounding of the momentum then, of which 16 are allowed), and one rounding of
-// its length, for what never moves: a 2^-20th of it was as if something 1e12 times as heavy as what
-// it is hit by had no momentum.
+// that is less (a 2^-10th of a rounding of the momentum then), and one rounding of its length, for
+// what never moves: a 2^-20th of it was as if something 1e12 times as heavy as what it is hit by
+// had no momentum.
 //
 template <int Power, int Unknowns>
 struct NewtonRuleOfMany : NewtonRule<Power> {
@@ -685,7 +686,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
       // Noise is 64 roundings of a size, see `hear`, and its fourth difference 16 times as much.
       if (bend <= 1024 * epsilon) continue;
-      if (bend * part * part * 16 > round_off * move * move) return false;
+      if (bend * part * part * 16384 > round_off * move * move) return false;
     }
     return true;
   }
@@ -710,23 +711,23 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // answers for all: no more need be asked.
   bool is_lost_in(Real length, Real size) const {
     if (Power == 1) return size <= 8 * epsilon * length;
-    return this->contraction * size * size * 16 <= epsilon * length;
+    return this->contraction * size * size * 16384 <= epsilon * length;
   }
   // The same of what the motion shows.
   bool bends_little(Real length, Real size) const {
     const Real bend = this->bend_of(size);
     return Power == 1 ||
-           bend * size * size * 16 <= epsilon * length * One::power(this->motion.move);
+           bend * size * size * 16384 <= epsilon * length * One::power(this->motion.move);
   }
   // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
   // the lengths again where no way counts.
   Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
                   int iterations) {
     const Seen seen = sums_of(moved, length, way, count);
-    // What is 16 times lost in the rounding of the least unknown is 2^20 times lost in 2^16 times
+    // What is 2^14 times lost in the rounding of the least unknown is 2^20 times lost in 2^6 times
     // it: with the factor of ends_at_once.
     const Real round_off = epsilon * Real(count);
-    const Real least = 65536 * epsilon * seen.shortest;
+    const Real least = 64 * epsilon * seen.shortest;
     const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
     const Real measured = Power == 2 && least < round_off ? least : round_off;
     const bool even = Power == 2 || is_lost_in(seen.shortest, seen.size);
@@ -822,8 +823,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_537D6679_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_DF1F966F_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_DF1F966F_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -846,8 +847,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_537D6679_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_DF1F966F_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_DF1F966F_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
@@ -972,8 +973,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_537D6679_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_DF1F966F_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_DF1F966F_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -994,6 +995,16 @@ struct FixedPointRule {
 // nothing by 1/142.  Refinement begins at the iterate itself, down to 1/96, where what is
 // seen, in proportion to the contraction, is below the 1e-4 that a step may be off in the mean.
 //
+// Note [what is far from its end]
+// Of many unknowns most may hardly contract what one of them does at a wall, and what is told of
+// all together is not true of that one.  Of 30 with two between walls exp(40 (q - 1)) these were
+// thousands of units from their end and ended with the first increment: their energies were off by
+// 6e-2 of a rounding more in every step.  Where each unknown was near before the last increment
+// that is sure to be little.  Else what follows the increment is looked at: what the equations lack
+// behind it, less what rounding took from it, which is known without an error, and no more than a
+// 2^-14th of a rounding of the momenta, of which the unknowns' way is 1/h, may follow that in the
+// same ratio.
+//
 // Note [of one or of two]
 // Where coordinates move momenta and these the coordinates, two increments are in a ratio to each
 // other that says how differently both are missing, and the next two are in another: both ratios
@@ -1009,6 +1020,9 @@ struct ContractionRule {
   Real of_round = 1;
   int work = 0;
   int unchecked = 0;
+  bool near = false;  // is each unknown?
+  bool sure = false;  // was each before the last increment?
+  Real way = 0;       // of all unknowns in the step, where Refinement foresees what follows
   bool settled = false;
 
   // What the other solver's matrix costs, in evaluations of the equations; 0: there is no other.
@@ -1017,6 +1031,8 @@ struct ContractionRule {
     size = 0;
     for (Real& each : past) each = 0;
     work = matrix_work;
+    near = false;
+    way = 0;
     settled = false;
   }
   Verdict operator()(const Distance& moved, int iterations) {
@@ -1026,6 +1042,8 @@ struct ContractionRule {
     Verdict verdict = rule.judge(moved, iterations);
     size = rule.size;
     round_off = moved.round_off();
+    sure = near || size <= 0;
+    near = moved.near();
     if (verdict == Verdict::failed) return give_up();
     if (before > 0 && size > 64 * round_off) learn(size / before);
     if (is_slow()) return give_up();
@@ -1042,6 +1060,10 @@ struct ContractionRule {
     const bool goes_on = before > 0 ? grows && work > 0 : contraction >= largest || is_lost(next());
     const bool may_go_on = size > 0 && iterations < 500;
     return verdict == Verdict::done && goes_on && may_go_on ? Verdict::go_on : verdict;
+  }
+  // See Note [what is far from its end].
+  bool is_lost_behind(Real follows) const {
+    return Cycle == 1 && follows * follows * 16384 <= epsilon * way * size;
   }
   // Is the last increment made?  See Note [who has chosen the point].
   bool moves() const { return settled || contraction * of_two(96) <= 1; }
@@ -1104,8 +1126,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_REFINEMENT
-#define HAMGEN_537D6679_FLOAT64_REFINEMENT
+#ifndef HAMGEN_DF1F966F_FLOAT64_REFINEMENT
+#define HAMGEN_DF1F966F_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1118,10 +1140,10 @@ struct ContractionRule {
 // The last round's increment is seen by nobody: the slopes are those before it.  By it they, and
 // the step, are off as much as the next round would move, the contraction times that, and what is
 // cut off is a bias: a 2^-13th of a unit.  The contraction is that of two rounds, of this step or
-// of the one before, four times over; no increment of more than a 1024th of a unit is left: momenta
-// that are no unknowns are moved by 1/h times as much.  With a 32nd gauss-4 gained 4e-4 roundings
-// of its energy a step between walls exp(40 (q - 1)).  (In float it is a 32nd: a difference there
-// knows no more.)
+// of the one before, four times over; no increment of more than a 32nd of a unit is left.  Where
+// stages are those of coordinates alone it is a 1024th: momenta, which are no unknowns then, are
+// moved by 1/h times as much.  With a 32nd gauss-4 gained 4e-4 roundings of its energy a step
+// between walls exp(40 (q - 1)).  (In float it is a 32nd: a difference there knows no more.)
 //
 // Note [two forms of the equations]
 // Stages of coordinates alone have another form in rounds than that by which they first lack
@@ -1139,7 +1161,7 @@ struct Refinement {
     return power;
   }
   static constexpr Real amplifier = find_amplifier();
-  static constexpr Real fewest = amplifier < 4096 ? 32 : 1024;
+  static constexpr Real fewest = TwoForms && amplifier > 4096 ? 1024 : 32;
   static constexpr int size = Size;
   static constexpr int components = Components;
   static constexpr bool rounds_beside = RoundsBeside;
@@ -1159,11 +1181,23 @@ struct Refinement {
   int rounds = 0;
   int asked = 0;  // rounds that a rule wants to see behind the first
   bool changes = false;
-  bool looks = false;  // at what the other form lacks there
+  bool doubted = false;  // what a rule has settled, by what was seen
+  bool looks = false;    // at what the other form lacks there
   Real lacked[looks_twice ? Size : 1] = {};
   Real sloped[looks_twice ? Components : 1] = {};  // the gradient with it
   bool found = true;  // was the solution at the end, or does the map not contract?
 
+  // Before the last increment is made of a rule that is not sure: what rounding takes from it of
+  // each unknown, and how far these have come in the step.
+  template <class Rule>
+  void foresee(Rule& rule, const Real* point, const Real* increment, const Real* from) {
+    if (rule.sure || !rule.settled) return;
+    for (int j = 0; j < Size; ++j) {
+      const Real next = point[j] + increment[j];
+      moved[j] = increment[j] - (next - point[j]);
+    }
+    rule.way = sum_of<Size>([&](int j) { return magnitude(point[j] - from[j]); });
+  }
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   // Where that is_slow then the solution has not been found: it is left to the solver behind.
@@ -1172,10 +1206,11 @@ struct Refinement {
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled) {
+      if (behind <= 0) doubted = !rule.sure && !is_lost_behind(rule, lack);
       const bool seen = lacking(lack) > rule.round_off;
       const Real open = left(point, lack, seen ? 64 : 8);
       const bool waits = open > epsilon * epsilon * rule.round_off;
-      const bool ends = !seen && !waits;
+      const bool ends = !seen && !waits && !doubted;
       const bool goes_ahead = waits && (behind <= 0 || 2 * open < behind);
       behind = goes_ahead ? open : 0;
       if (goes_ahead) {
@@ -1231,6 +1266,10 @@ struct Refinement {
     return more;
   }
 
+  template <class Rule>
+  bool is_lost_behind(const Rule& rule, const Real* lack) const {
+    return rule.is_lost_behind(sum_of<Size>([&](int j) { return magnitude(lack[j] - moved[j]); }));
+  }
   void forget_changes() {
     changes = false;
     for (Real& value : change) value = 0;
@@ -1319,8 +1358,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_HISTORY
-#define HAMGEN_537D6679_FLOAT64_HISTORY
+#ifndef HAMGEN_DF1F966F_FLOAT64_HISTORY
+#define HAMGEN_DF1F966F_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1421,8 +1460,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_FORGET
-#define HAMGEN_537D6679_FLOAT64_FORGET
+#ifndef HAMGEN_DF1F966F_FLOAT64_FORGET
+#define HAMGEN_DF1F966F_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1432,17 +1471,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_537d6679::float64
+}  // namespace hamgen_df1f966f::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x4ac0bdaa
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xac06a4e3
 namespace fput::implicit_midpoint {
-inline namespace emitted_4ac0bdaa {
+inline namespace emitted_ac06a4e3 {
 
-namespace numerics = ::hamgen_537d6679::float64;
+namespace numerics = ::hamgen_df1f966f::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1578,6 +1617,7 @@ inline bool contract(const Parameters& par, const Coefficients& k, Real h, const
     distance.add(start.lack, start.value, z.q, n);
     const Verdict verdict = start.rule(distance, iteration);
     if (verdict == Verdict::go_on || start.rule.moves()) {
+      start.refinement.foresee(start.rule, start.value, start.lack, z.q);
       for (int i = 0; i < n; ++i) {
         start.value[i] += start.lack[i];
       }
@@ -1787,9 +1827,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_4ac0bdaa
+}  // namespace emitted_ac06a4e3
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x4ac0bdaa
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xac06a4e3
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -98,11 +98,11 @@ inline void invariants(const Parameters&, const State& z, Real (&values)[3]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_537d6679::float64 {
+namespace hamgen_df1f966f::float64 {
 using Real = double;
 
-#ifndef HAMGEN_537D6679_FLOAT64_STEP_REPORT
-#define HAMGEN_537D6679_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_DF1F966F_FLOAT64_STEP_REPORT
+#define HAMGEN_DF1F966F_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -112,15 +112,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_VOCABULARY
-#define HAMGEN_537D6679_FLOAT64_VOCABULARY
+#ifndef HAMGEN_DF1F966F_FLOAT64_VOCABULARY
+#define HAMGEN_DF1F966F_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_TWO_SUM
-#define HAMGEN_537D6679_FLOAT64_TWO_SUM
+#ifndef HAMGEN_DF1F966F_FLOAT64_TWO_SUM
+#define HAMGEN_DF1F966F_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -130,8 +130,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_SUM_WITH_REST
-#define HAMGEN_537D6679_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_DF1F966F_FLOAT64_SUM_WITH_REST
+#define HAMGEN_DF1F966F_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -143,14 +143,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_VERDICT
-#define HAMGEN_537D6679_FLOAT64_VERDICT
+#ifndef HAMGEN_DF1F966F_FLOAT64_VERDICT
+#define HAMGEN_DF1F966F_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_NEWTON_RULE
-#define HAMGEN_537D6679_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE
+#define HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -172,8 +172,9 @@ enum class Verdict { go_on, done, failed };
 // grown since, for an increment across the motion, and for the bias.  Counted 2^10 times, between
 // walls exp(40 (q - 1)) at h = 0.005 the energy fell by 1.9e-19 of itself in every step.  Of
 // several unknowns, each in its own unit, they count 2^17 times, and where each is asked by itself
-// a 16th of its rounding is what an increment may leave, measured or not: the bend of a linear
-// oscillation, which leaves nothing, is counted as well.
+// a 2^-14th of its rounding is what an increment may leave, measured or not: the bend of a linear
+// oscillation, which leaves nothing, is counted as well.  (With a 16th twelve between such walls
+// lost 5e-4 of their roundings a step.)
 //
 // Note [what is below rounding]
 // An increment below rounding ends an exact iteration.  Of an approximate one it leaves the
@@ -302,10 +303,10 @@ struct NewtonRule {
   // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
   // lacks].
   bool is_even(Real size, Real uneven) const {
-    if (previous > 0) return uneven * 16 <= epsilon;
+    if (previous > 0) return uneven * 16384 <= epsilon;
     const Real parts = size * uneven;
-    return contraction * parts * 16 <= epsilon &&
-           bend_of(size) * parts * 16 <= epsilon * power(motion.move);
+    return contraction * parts * 16384 <= epsilon &&
+           bend_of(size) * parts * 16384 <= epsilon * power(motion.move);
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off, Real move) const {
@@ -322,8 +323,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_537D6679_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -339,7 +340,7 @@ struct NewtonRule {
 // Note [what its own motion shows of each]
 // A sum is loud where most of it is: a free particle goes a 30th in a step, and nothing in it shows
 // that another one comes to a wall exp(1e5 (y - 1)) with a 1e5th.  So each unknown is also asked by
-// itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, with the
+// itself whether its bend (increment / move)^2 is lost, a 2^-14th of its rounding at most, with the
 // increment for the bend where that is larger, and as long as it is more than noise can be.  Where
 // increments were measured the next one of each is told by its own last two, moved (moved /
 // before)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
@@ -369,9 +370,9 @@ struct NewtonRule {
 // hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
 // asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
 // of their roundings.  So 16 times the way that the step has moved it stands for its length where
-// that is less (one rounding of the momentum then, of which 16 are allowed), and one rounding of
-// its length, for what never moves: a 2^-20th of it was as if something 1e12 times as heavy as what
-// it is hit by had no momentum.
+// that is less (a 2^-10th of a rounding of the momentum then), and one rounding of its length, for
+// what never moves: a 2^-20th of it was as if something 1e12 times as heavy as what it is hit by
+// had no momentum.
 //
 template <int Power, int Unknowns>
 struct NewtonRuleOfMany : NewtonRule<Power> {
@@ -456,7 +457,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
       // Noise is 64 roundings of a size, see `hear`, and its fourth difference 16 times as much.
       if (bend <= 1024 * epsilon) continue;
-      if (bend * part * part * 16 > round_off * move * move) return false;
+      if (bend * part * part * 16384 > round_off * move * move) return false;
     }
     return true;
   }
@@ -481,23 +482,23 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // answers for all: no more need be asked.
   bool is_lost_in(Real length, Real size) const {
     if (Power == 1) return size <= 8 * epsilon * length;
-    return this->contraction * size * size * 16 <= epsilon * length;
+    return this->contraction * size * size * 16384 <= epsilon * length;
   }
   // The same of what the motion shows.
   bool bends_little(Real length, Real size) const {
     const Real bend = this->bend_of(size);
     return Power == 1 ||
-           bend * size * size * 16 <= epsilon * length * One::power(this->motion.move);
+           bend * size * size * 16384 <= epsilon * length * One::power(this->motion.move);
   }
   // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
   // the lengths again where no way counts.
   Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
                   int iterations) {
     const Seen seen = sums_of(moved, length, way, count);
-    // What is 16 times lost in the rounding of the least unknown is 2^20 times lost in 2^16 times
+    // What is 2^14 times lost in the rounding of the least unknown is 2^20 times lost in 2^6 times
     // it: with the factor of ends_at_once.
     const Real round_off = epsilon * Real(count);
-    const Real least = 65536 * epsilon * seen.shortest;
+    const Real least = 64 * epsilon * seen.shortest;
     const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
     const Real measured = Power == 2 && least < round_off ? least : round_off;
     const bool even = Power == 2 || is_lost_in(seen.shortest, seen.size);
@@ -593,8 +594,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_HISTORY
-#define HAMGEN_537D6679_FLOAT64_HISTORY
+#ifndef HAMGEN_DF1F966F_FLOAT64_HISTORY
+#define HAMGEN_DF1F966F_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -695,8 +696,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_FORGET
-#define HAMGEN_537D6679_FLOAT64_FORGET
+#ifndef HAMGEN_DF1F966F_FLOAT64_FORGET
+#define HAMGEN_DF1F966F_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -706,17 +707,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_537d6679::float64
+}  // namespace hamgen_df1f966f::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_kepler_implicit_midpoint
-#define HAMGEN_METHOD_kepler_implicit_midpoint 0x0b356819
+#define HAMGEN_METHOD_kepler_implicit_midpoint 0xbeb1ab38
 namespace kepler::implicit_midpoint {
-inline namespace emitted_0b356819 {
+inline namespace emitted_beb1ab38 {
 
-namespace numerics = ::hamgen_537d6679::float64;
+namespace numerics = ::hamgen_df1f966f::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRuleOfMany, numerics::History, numerics::forget;
 
@@ -924,9 +925,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_0b356819
+}  // namespace emitted_beb1ab38
 }  // namespace kepler::implicit_midpoint
-#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0x0b356819
+#elif HAMGEN_METHOD_kepler_implicit_midpoint != 0xbeb1ab38
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -65,11 +65,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows knows nothing of the system.
-namespace hamgen_537d6679::float64 {
+namespace hamgen_df1f966f::float64 {
 using Real = double;
 
-#ifndef HAMGEN_537D6679_FLOAT64_STEP_REPORT
-#define HAMGEN_537D6679_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_DF1F966F_FLOAT64_STEP_REPORT
+#define HAMGEN_DF1F966F_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -79,8 +79,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_537D6679_FLOAT64_TWO_SUM
-#define HAMGEN_537D6679_FLOAT64_TWO_SUM
+#ifndef HAMGEN_DF1F966F_FLOAT64_TWO_SUM
+#define HAMGEN_DF1F966F_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -90,14 +90,14 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-}  // namespace hamgen_537d6679::float64
+}  // namespace hamgen_df1f966f::float64
 
 #ifndef HAMGEN_METHOD_product_symplectic_euler_b
-#define HAMGEN_METHOD_product_symplectic_euler_b 0x1c5534c0
+#define HAMGEN_METHOD_product_symplectic_euler_b 0xfca68a1a
 namespace product::symplectic_euler_b {
-inline namespace emitted_1c5534c0 {
+inline namespace emitted_fca68a1a {
 
-namespace numerics = ::hamgen_537d6679::float64;
+namespace numerics = ::hamgen_df1f966f::float64;
 using numerics::StepReport, numerics::two_sum;
 
 // What depends on h and the parameters alone.
@@ -201,9 +201,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_1c5534c0
+}  // namespace emitted_fca68a1a
 }  // namespace product::symplectic_euler_b
-#elif HAMGEN_METHOD_product_symplectic_euler_b != 0x1c5534c0
+#elif HAMGEN_METHOD_product_symplectic_euler_b != 0xfca68a1a
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

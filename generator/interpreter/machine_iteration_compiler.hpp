@@ -72,56 +72,66 @@ class MachineIterationCompiler : public MachineMemory<Real> {
     const int start = index_of("start");
     const std::string flag = iterate.factorised ? iterate.factorised->field : "";
     const Steps body = steps(iterate.body);
-    const bool are_whole = !whole_unknowns(this->routine_, iterate).empty();
+    const std::vector<WholeUnknowns> arrays = whole_unknowns(this->routine_, iterate);
+    const bool are_whole = !arrays.empty();
+    std::vector<Whole> foreseen;  // values, increments, and where the step began
+    if (!iterate.refinement.empty() && arrays.size() == 1) {
+      const auto count = static_cast<std::size_t>(arrays[0].count);
+      for (const Place& array : {arrays[0].value, arrays[0].increment, arrays[0].beside})
+        foreseen.push_back({address(array), count});
+    }
     // Linear equations ask for none.
     const Whole lengths =
         iterate.rule != Rule::newton
             ? Whole{}
             : Whole{address(iterate.values), static_cast<std::size_t>(iterate.count)};
-    return
-        [this, unknowns, ranges, residual, leaves_last = iterate.leaves_last, start, flag,
-         are_whole, lengths, body, rule = iterate.rule, name = iterate.name, work = iterate.work] {
-          Object<Real>& memory = object(start);
-          const auto each = [&](const std::function<void(const Array2&)>& use) {
-            for_all(ranges, 0, [&] {
-              for (const Array2& u : unknowns) use(u);
-            });
-          };
-          if (rule == Rule::newton || rule == Rule::linear) {
-            const bool known = memory.flags.at("known") != 0;
-            AnyNewtonRule<Real>& newton = *memory.rules.at(name);
-            return run_newton(
-                newton, known, body,
-                [&](int iteration) {
-                  return this->judged_in_loops(newton, lengths, each, unknowns.size(), iteration);
-                },
-                [&] { this->move_each(each); });
-          }
-          const auto measure = [&] {
-            return this->measure_each(each, are_whole, unknowns.size(), work.has_value());
-          };
-          if (rule == Rule::simplified_newton) {
-            AnySimplifiedNewtonRule<Real>& newton = *memory.simplified.at(name);
-            int& factorised = memory.flags.at(flag);
-            newton.begin(factorised != 0);
-            const auto judge = [&](const Distance& distance, int iteration) {
-              bool serves = factorised != 0;
-              const Answer answer = newton(distance, m_.frame.at(residual), serves, iteration);
-              factorised = serves ? 1 : 0;
-              return std::pair(answer, newton.size());
-            };
-            return run_contraction(body, measure, judge, [&](Answer) { this->move_each(each); });
-          }
-          AnyFixedPointRule<Real>& fixed_point = *memory.contractions.at(name);
-          fixed_point.begin(work.value_or(0));
-          const auto judge = [&](const Distance& distance, int iteration) {
-            return judged(fixed_point, distance, iteration);
-          };
-          return run_contraction(body, measure, judge, [&](Answer answer) {
-            if (!leaves_last || answer == Answer::go_on || fixed_point.moves())
-              this->move_each(each);
-          });
+    return [this, unknowns, ranges, residual, leaves_last = iterate.leaves_last, start, flag,
+            are_whole, lengths, foreseen, body, rule = iterate.rule, name = iterate.name,
+            work = iterate.work, behind = iterate.refinement] {
+      Object<Real>& memory = object(start);
+      const auto each = [&](const std::function<void(const Array2&)>& use) {
+        for_all(ranges, 0, [&] {
+          for (const Array2& u : unknowns) use(u);
+        });
+      };
+      if (rule == Rule::newton || rule == Rule::linear) {
+        const bool known = memory.flags.at("known") != 0;
+        AnyNewtonRule<Real>& newton = *memory.rules.at(name);
+        return run_newton(
+            newton, known, body,
+            [&](int iteration) {
+              return this->judged_in_loops(newton, lengths, each, unknowns.size(), iteration);
+            },
+            [&] { this->move_each(each); });
+      }
+      const auto measure = [&] {
+        return this->measure_each(each, are_whole, unknowns.size(), work.has_value());
+      };
+      if (rule == Rule::simplified_newton) {
+        AnySimplifiedNewtonRule<Real>& newton = *memory.simplified.at(name);
+        int& factorised = memory.flags.at(flag);
+        newton.begin(factorised != 0);
+        const auto judge = [&](const Distance& distance, int iteration) {
+          bool serves = factorised != 0;
+          const Answer answer = newton(distance, m_.frame.at(residual), serves, iteration);
+          factorised = serves ? 1 : 0;
+          return std::pair(answer, newton.size());
         };
+        return run_contraction(body, measure, judge, [&](Answer) { this->move_each(each); });
+      }
+      AnyFixedPointRule<Real>& fixed_point = *memory.contractions.at(name);
+      fixed_point.begin(work.value_or(0));
+      const auto judge = [&](const Distance& distance, int iteration) {
+        return judged(fixed_point, distance, iteration);
+      };
+      return run_contraction(body, measure, judge, [&](Answer answer) {
+        if (leaves_last && answer != Answer::go_on && !fixed_point.moves()) return;
+        if (!foreseen.empty())
+          memory.refinements.at(behind)->foresee(fixed_point, span(foreseen[0]), span(foreseen[1]),
+                                                 span(foreseen[2]));
+        this->move_each(each);
+      });
+    };
   }
   Step operator()(const RefineArray& refine) {
     const auto count = static_cast<std::size_t>(refine.count);

@@ -215,6 +215,14 @@ class RefinementOf final : public AnyRefinement<Real> {
     std::copy_n(all.padded, point.size(), point.begin());
     return more;
   }
+  void foresee(AnyFixedPointRule<Real>& rule, std::span<const Real> point,
+               std::span<const Real> increment, std::span<const Real> from) override {
+    (void)rule.ask([&](auto& contraction) {
+      refinement_.foresee(contraction, Padded<Real, Size>(point).padded,
+                          Padded<Real, Size>(increment).padded, Padded<Real, Size>(from).padded);
+      return true;
+    });
+  }
   void round_beside(Real length) override { refinement_.beside = length; }
   [[nodiscard]] bool is_first() const override { return refinement_.rounds == 0; }
   [[nodiscard]] bool found() const override { return refinement_.found; }
@@ -341,12 +349,13 @@ template <class Real>
 std::unique_ptr<AnyRefinement<Real>> Blocks<Real>::refinement(int unknowns, int components,
                                                               bool two_forms) {
   const int size = std::max(unknowns, (components + 1) / 2);
-  return at_least<2, 8, 32, 128, 1024>(size, [&](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
-    constexpr int kSize = decltype(n)::value;
-    if constexpr (NumericsOf<Real>::template Refined<kSize, true>::looks_twice) {
-      if (two_forms) return std::make_unique<RefinementOf<Real, kSize, true>>();
-    }
-    return std::make_unique<RefinementOf<Real, kSize, false>>();
+  if (two_forms) {
+    return at_least<32, 1024>(size, [](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
+      return std::make_unique<RefinementOf<Real, decltype(n)::value, true>>();
+    });
+  }
+  return at_least<2, 8, 32, 128, 1024>(size, [](auto n) -> std::unique_ptr<AnyRefinement<Real>> {
+    return std::make_unique<RefinementOf<Real, decltype(n)::value, false>>();
   });
 }
 

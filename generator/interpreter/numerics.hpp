@@ -154,6 +154,9 @@ struct AnyRefinement {
   // The same with a ContractionRule that may have settled it.
   virtual bool refine(AnyFixedPointRule<Real>& rule, std::span<Real> point,
                       std::span<const Real> lack, std::span<const Real> slope) = 0;
+  // Before the last increment of such a rule, from where the step began.
+  virtual void foresee(AnyFixedPointRule<Real>& rule, std::span<const Real> point,
+                       std::span<const Real> increment, std::span<const Real> from) = 0;
   virtual void round_beside(Real length) = 0;
   [[nodiscard]] virtual bool is_first() const = 0;
   [[nodiscard]] virtual bool found() const = 0;

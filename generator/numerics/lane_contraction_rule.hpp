@@ -8,6 +8,9 @@ struct ContractionRule : FixedPointRule<2> {
   Real of_round = 1;
   int work = 0;
   bool checks = false;
+  Mask near = false;  // is each unknown?
+  Mask sure = false;  // was each before the last increment?
+  Real way = 0;       // of all unknowns in the step, where Refinement foresees what follows
   Mask settled = false;
 
   // What the other solver's matrix costs, in evaluations of the equations; 0: there is no other.
@@ -17,6 +20,8 @@ struct ContractionRule : FixedPointRule<2> {
     for (Real& each : past) each = 0;
     work = matrix_work;
     checks = turn.is_check();
+    near = false;
+    way = 0;
     settled = false;
   }
   Mask operator()(const Distance& moved, int iterations) {
@@ -25,6 +30,8 @@ struct ContractionRule : FixedPointRule<2> {
     const Real& oldest = past[0];
     Judgement judgement = judge(moved, iterations);
     round_off = select(open, moved.round_off(), round_off);
+    sure = (sure & !open) | (open & (near | (size <= 0)));
+    near = moved.near();
     const Mask measured = oldest > 0;
     learn(open & !judgement.failed & measured & (size > 64 * round_off), size / oldest);
     judgement.failed = judgement.failed | is_slow();
@@ -43,6 +50,9 @@ struct ContractionRule : FixedPointRule<2> {
         (size > 0) & Mask(iterations < 500) & ((measured & grows) | (another & !measured));
     judgement.done = settles | (judgement.done & !goes_on);
     return end(judgement);
+  }
+  Mask is_lost_behind(const Real& follows) const {
+    return Mask(Cycle == 1) & (follows * follows * 16384 <= epsilon * way * size);
   }
   // Is the last increment made?
   Mask moves() const { return settled | (contraction * of_two(Real(96)) <= 1); }

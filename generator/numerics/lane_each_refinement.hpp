@@ -1,7 +1,8 @@
 // The end of a fixed-point iteration, below the last place of its unknowns, in each lane as for one
 // trajectory (refinement.hpp has the reasons).  A lane that wants no more has its rounded point
-// again, and keeps what was found there.  In double one form of the equations is enough.
-template <int Size, int Components, bool RoundsBeside = false, bool = false>
+// again, and keeps what was found there.  In double one form of the equations is enough;
+// where there are two its rounds go on for longer.
+template <int Size, int Components, bool RoundsBeside = false, bool TwoForms = false>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
   static constexpr double find_amplifier() {
@@ -10,6 +11,7 @@ struct Refinement {
     return power;
   }
   static constexpr double amplifier = find_amplifier();
+  static constexpr double fewest = TwoForms ? 1024 : 32;
   Real change[Components] = {};  // of the gradient, from the rounded point to the solution
   Real slope[Components] = {};   // the gradient at the rounded point
   Real at[Size] = {};            // that point
@@ -22,11 +24,26 @@ struct Refinement {
   Real least = 0;                // of these
   Real contraction = 1;          // what a round moved of what the one before did
   Real stuck = 0;                // rounds that moved no less
+  Mask doubted = false;          // lanes where what is settled is not seen
+  bool ahead = false;            // has some lane gone ahead?
   Mask open = false;             // lanes that want more
   Mask found = true;             // lanes where the solution was at the end
   Mask asked = false;            // lanes of which a rule wants to see two rounds more
   int rounds = 0;
 
+  // Before the last increment is made in lanes of which a rule is not sure: what rounding takes
+  // from it of each unknown, and how far these have come in the step.
+  template <class Rule>
+  void foresee(Rule& rule, const Real* point, const Real* increment, const Real* from) {
+    const Mask lanes = rule.settled & !rule.sure;
+    if (!any(lanes)) return;
+    for (int j = 0; j < Size; ++j) {
+      const Real next = point[j] + increment[j];
+      moved[j] = select(lanes, increment[j] - (next - point[j]), moved[j]);
+    }
+    const Real way = sum_of(Size, [&](int j) { return magnitude(point[j] - from[j]); });
+    rule.way = select(lanes, way, rule.way);
+  }
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   // In lanes where that is_slow then the solution has not been found.
@@ -37,7 +54,9 @@ struct Refinement {
     if (rounds == 0) {
       asked = rule.rounds_asked();
       rule.settled = turn.lanes & rule.settled;
-      if (goes_ahead(rule, point, lack)) return true;
+      if (!ahead) doubt(rule, lack);
+      ahead = goes_ahead(rule, point, lack);
+      if (ahead) return true;
       begin(turn.lanes, point, lack, gradient);
       open = open & !rule.settled;
     }
@@ -58,6 +77,14 @@ struct Refinement {
   }
 
  private:
+  // What is settled, by what is seen, before any lane has gone ahead.
+  template <class Rule>
+  void doubt(const Rule& rule, const Real* lack) {
+    doubted = rule.settled & !rule.sure;
+    if (!any(doubted)) return;
+    const Real follows = sum_of(Size, [&](int j) { return magnitude(lack[j] - moved[j]); });
+    doubted = doubted & !rule.is_lost_behind(follows);
+  }
   // As long as some small unknowns have not come to their end, all of that lane go on.
   template <class Rule>
   bool goes_ahead(Rule& rule, Real* point, const Real* lack) {
@@ -65,7 +92,7 @@ struct Refinement {
     const Real left = left_of(point, lack, select(seen, Real(64), Real(8)));
     const Mask waits = rule.settled & (left > epsilon * epsilon * rule.round_off);
     const Mask goes = waits & ((behind <= 0) | (2 * left < behind));
-    rule.settled = rule.settled & (goes | !(waits | seen));
+    rule.settled = rule.settled & (goes | !(waits | seen | doubted));
     behind = select(goes, left, Real(0));
     if (!any(goes)) return false;
     for (int j = 0; j < Size; ++j) point[j] = select(goes, point[j] + lack[j], point[j]);
@@ -104,7 +131,7 @@ struct Refinement {
     const Mask lanes = open;
     Real lacking = 0;
     const Real part = 32768 * contraction;
-    const Real counts = select(part > 1024, select(part < 8192, part, Real(8192)), Real(1024));
+    const Real counts = select(part > fewest, select(part < 8192, part, Real(8192)), Real(fewest));
     const Real size = sum_of(Size, [&](int j) {
       const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
       const Real way = moved[j] + error;

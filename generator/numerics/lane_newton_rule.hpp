@@ -136,10 +136,10 @@ struct NewtonRule : Iteration {
   }
   // Is the next increment lost in the rounding of each unknown?
   Mask is_even(const Real& size, const Real& uneven, bool measured) const {
-    if (measured) return uneven * 16 <= epsilon;
+    if (measured) return uneven * 16384 <= epsilon;
     const Real parts = size * uneven;
-    return (contraction * parts * 16 <= epsilon) &
-           (bend_of(size) * parts * 16 <= epsilon * power(motion.move));
+    return (contraction * parts * 16384 <= epsilon) &
+           (bend_of(size) * parts * 16384 <= epsilon * power(motion.move));
   }
   // Is bend (size / move)^Power lost in rounding?
   Mask is_straight(const Real& size, const Real& round_off) const {

@@ -101,7 +101,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       const Real bend = select(shown > part, shown, part);
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
       within = within &
-               ((bend <= 1024 * epsilon) | (bend * part * part * 16 <= round_off * move * move));
+               ((bend <= 1024 * epsilon) | (bend * part * part * 16384 <= round_off * move * move));
     }
     return within;
   }
@@ -124,16 +124,16 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
     if (Power == 1) return size <= 8 * epsilon * length;
     const Real round_off = epsilon * length;
     if (!this->begins) return false;
-    const Mask lost = this->contraction * size * size * 16 <= round_off;
+    const Mask lost = this->contraction * size * size * 16384 <= round_off;
     const Real bend = this->bend_of(size);
-    return lost & (bend * size * size * 16 <= round_off * One::power(this->motion.move));
+    return lost & (bend * size * size * 16384 <= round_off * One::power(this->motion.move));
   }
   // Most steps do, in all lanes.  Twice as strict as what follows is with each lane, which would
   // let none of these go on: whether it is asked depends on the others.
   bool ends_at_once(const Real& size, const Real& shortest, int count) {
     if (this->checks) return false;
     const double round_off = epsilon * count;
-    const Real least = 32768 * epsilon * shortest;
+    const Real least = 32 * epsilon * shortest;
     const Real shown = select(least < 4 * round_off, least, Real(4 * round_off));
     const Real measured = select(2 * least < round_off, least, Real(round_off / 2));
     const Real slow = this->motion.least;

@@ -19,8 +19,9 @@
 // grown since, for an increment across the motion, and for the bias.  Counted 2^10 times, between
 // walls exp(40 (q - 1)) at h = 0.005 the energy fell by 1.9e-19 of itself in every step.  Of
 // several unknowns, each in its own unit, they count 2^17 times, and where each is asked by itself
-// a 16th of its rounding is what an increment may leave, measured or not: the bend of a linear
-// oscillation, which leaves nothing, is counted as well.
+// a 2^-14th of its rounding is what an increment may leave, measured or not: the bend of a linear
+// oscillation, which leaves nothing, is counted as well.  (With a 16th twelve between such walls
+// lost 5e-4 of their roundings a step.)
 //
 // Note [what is below rounding]
 // An increment below rounding ends an exact iteration.  Of an approximate one it leaves the
@@ -149,10 +150,10 @@ struct NewtonRule {
   // Is the next increment lost in the rounding of each unknown?  See Note [what every unknown
   // lacks].
   bool is_even(Real size, Real uneven) const {
-    if (previous > 0) return uneven * 16 <= epsilon;
+    if (previous > 0) return uneven * 16384 <= epsilon;
     const Real parts = size * uneven;
-    return contraction * parts * 16 <= epsilon &&
-           bend_of(size) * parts * 16 <= epsilon * power(motion.move);
+    return contraction * parts * 16384 <= epsilon &&
+           bend_of(size) * parts * 16384 <= epsilon * power(motion.move);
   }
   // Is bend (size / move)^Power lost in rounding?
   bool is_straight(Real size, Real round_off, Real move) const {

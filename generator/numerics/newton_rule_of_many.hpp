@@ -13,7 +13,7 @@
 // Note [what its own motion shows of each]
 // A sum is loud where most of it is: a free particle goes a 30th in a step, and nothing in it shows
 // that another one comes to a wall exp(1e5 (y - 1)) with a 1e5th.  So each unknown is also asked by
-// itself whether its bend (increment / move)^2 is lost, a 16th of its rounding at most, with the
+// itself whether its bend (increment / move)^2 is lost, a 2^-14th of its rounding at most, with the
 // increment for the bend where that is larger, and as long as it is more than noise can be.  Where
 // increments were measured the next one of each is told by its own last two, moved (moved /
 // before)^2, and no step ends with noise as long as an unknown converges.  Walls beside a loud
@@ -43,9 +43,9 @@
 // hardly moves is moved by a momentum of 1/h times its way, which is torn out of the equations and
 // asked by nobody.  Of beads between walls, close to their turning points, momenta were off by 76
 // of their roundings.  So 16 times the way that the step has moved it stands for its length where
-// that is less (one rounding of the momentum then, of which 16 are allowed), and one rounding of
-// its length, for what never moves: a 2^-20th of it was as if something 1e12 times as heavy as what
-// it is hit by had no momentum.
+// that is less (a 2^-10th of a rounding of the momentum then), and one rounding of its length, for
+// what never moves: a 2^-20th of it was as if something 1e12 times as heavy as what it is hit by
+// had no momentum.
 //
 template <int Power, int Unknowns>
 struct NewtonRuleOfMany : NewtonRule<Power> {
@@ -130,7 +130,7 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
       const Real round_off = epsilon * felt(magnitude(length[j]), way[j]) * unit[j];
       // Noise is 64 roundings of a size, see `hear`, and its fourth difference 16 times as much.
       if (bend <= 1024 * epsilon) continue;
-      if (bend * part * part * 16 > round_off * move * move) return false;
+      if (bend * part * part * 16384 > round_off * move * move) return false;
     }
     return true;
   }
@@ -155,23 +155,23 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
   // answers for all: no more need be asked.
   bool is_lost_in(Real length, Real size) const {
     if (Power == 1) return size <= 8 * epsilon * length;
-    return this->contraction * size * size * 16 <= epsilon * length;
+    return this->contraction * size * size * 16384 <= epsilon * length;
   }
   // The same of what the motion shows.
   bool bends_little(Real length, Real size) const {
     const Real bend = this->bend_of(size);
     return Power == 1 ||
-           bend * size * size * 16 <= epsilon * length * One::power(this->motion.move);
+           bend * size * size * 16384 <= epsilon * length * One::power(this->motion.move);
   }
   // By how much each unknown moves, the length that it is rounded with, and its way in the step, or
   // the lengths again where no way counts.
   Verdict of_each(const Real* moved, const Real* length, const Real* way, int count,
                   int iterations) {
     const Seen seen = sums_of(moved, length, way, count);
-    // What is 16 times lost in the rounding of the least unknown is 2^20 times lost in 2^16 times
+    // What is 2^14 times lost in the rounding of the least unknown is 2^20 times lost in 2^6 times
     // it: with the factor of ends_at_once.
     const Real round_off = epsilon * Real(count);
-    const Real least = 65536 * epsilon * seen.shortest;
+    const Real least = 64 * epsilon * seen.shortest;
     const Real shown = Power == 2 && least < 8 * round_off ? least : 8 * round_off;
     const Real measured = Power == 2 && least < round_off ? least : round_off;
     const bool even = Power == 2 || is_lost_in(seen.shortest, seen.size);

@@ -10,10 +10,10 @@
 // The last round's increment is seen by nobody: the slopes are those before it.  By it they, and
 // the step, are off as much as the next round would move, the contraction times that, and what is
 // cut off is a bias: a 2^-13th of a unit.  The contraction is that of two rounds, of this step or
-// of the one before, four times over; no increment of more than a 1024th of a unit is left: momenta
-// that are no unknowns are moved by 1/h times as much.  With a 32nd gauss-4 gained 4e-4 roundings
-// of its energy a step between walls exp(40 (q - 1)).  (In float it is a 32nd: a difference there
-// knows no more.)
+// of the one before, four times over; no increment of more than a 32nd of a unit is left.  Where
+// stages are those of coordinates alone it is a 1024th: momenta, which are no unknowns then, are
+// moved by 1/h times as much.  With a 32nd gauss-4 gained 4e-4 roundings of its energy a step
+// between walls exp(40 (q - 1)).  (In float it is a 32nd: a difference there knows no more.)
 //
 // Note [two forms of the equations]
 // Stages of coordinates alone have another form in rounds than that by which they first lack
@@ -31,7 +31,7 @@ struct Refinement {
     return power;
   }
   static constexpr Real amplifier = find_amplifier();
-  static constexpr Real fewest = amplifier < 4096 ? 32 : 1024;
+  static constexpr Real fewest = TwoForms && amplifier > 4096 ? 1024 : 32;
   static constexpr int size = Size;
   static constexpr int components = Components;
   static constexpr bool rounds_beside = RoundsBeside;
@@ -51,11 +51,23 @@ struct Refinement {
   int rounds = 0;
   int asked = 0;  // rounds that a rule wants to see behind the first
   bool changes = false;
-  bool looks = false;  // at what the other form lacks there
+  bool doubted = false;  // what a rule has settled, by what was seen
+  bool looks = false;    // at what the other form lacks there
   Real lacked[looks_twice ? Size : 1] = {};
   Real sloped[looks_twice ? Components : 1] = {};  // the gradient with it
   bool found = true;  // was the solution at the end, or does the map not contract?
 
+  // Before the last increment is made of a rule that is not sure: what rounding takes from it of
+  // each unknown, and how far these have come in the step.
+  template <class Rule>
+  void foresee(Rule& rule, const Real* point, const Real* increment, const Real* from) {
+    if (rule.sure || !rule.settled) return;
+    for (int j = 0; j < Size; ++j) {
+      const Real next = point[j] + increment[j];
+      moved[j] = increment[j] - (next - point[j]);
+    }
+    rule.way = sum_of<Size>([&](int j) { return magnitude(point[j] - from[j]); });
+  }
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
   // Where that is_slow then the solution has not been found: it is left to the solver behind.
@@ -64,10 +76,11 @@ struct Refinement {
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled) {
+      if (behind <= 0) doubted = !rule.sure && !is_lost_behind(rule, lack);
       const bool seen = lacking(lack) > rule.round_off;
       const Real open = left(point, lack, seen ? 64 : 8);
       const bool waits = open > epsilon * epsilon * rule.round_off;
-      const bool ends = !seen && !waits;
+      const bool ends = !seen && !waits && !doubted;
       const bool goes_ahead = waits && (behind <= 0 || 2 * open < behind);
       behind = goes_ahead ? open : 0;
       if (goes_ahead) {
@@ -123,6 +136,10 @@ struct Refinement {
     return more;
   }
 
+  template <class Rule>
+  bool is_lost_behind(const Rule& rule, const Real* lack) const {
+    return rule.is_lost_behind(sum_of<Size>([&](int j) { return magnitude(lack[j] - moved[j]); }));
+  }
   void forget_changes() {
     changes = false;
     for (Real& value : change) value = 0;

@@ -190,10 +190,10 @@ struct IterateArray {
   std::vector<UnknownArray> unknowns;
   Body body;
   int lanes = 0;  // so many of one array of unknowns are moved at once, as of For
-  // Of a ContractionRule: what the matrix of the solver behind it costs, or 0.
+  // Of a ContractionRule: what the matrix behind it costs, or 0; what foresees its last increment.
   std::optional<int> work = {};
-  // Of Newton: what all are rounded with and all increments; of linear equations, too, their
-  // number.
+  std::string refinement = {};
+  // Of Newton: what all are rounded with, all increments; of linear equations their number, too.
   Place values = {}, increments = {};
   int count = 0;
   // Of a fixed point: whether the increment with which it ends is left to Refinement, unless a

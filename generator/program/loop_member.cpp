@@ -272,6 +272,7 @@ class LoopMember : LoopStage {
                          .body = std::move(body),
                          .leaves_last = true};
     if (settles()) iterate.work = both() ? arrays_.matrix_work : 0;
+    if (settles() && arrays_.reduced) iterate.refinement = "refinement";
     b.body().push_back({std::move(iterate), {"Fixed-point iteration."}});
     b.body().push_back({RefineArray{.refinement = {"start", "refinement"},
                                     .point = {"start", "value"},

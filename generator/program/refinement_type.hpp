@@ -14,8 +14,10 @@ namespace hamgen {
   return "Refinement<" + std::to_string(unknowns) + ", " + std::to_string(components) +
          (two_forms ? second : first) + ">";
 }
+// In lanes, too.
 [[nodiscard]] inline bool has_two_forms(const std::string& refinement_type) {
-  return refinement_type.ends_with(", true, true>") || refinement_type.ends_with(", false, true>");
+  return refinement_type.find(", true, true>") != std::string::npos ||
+         refinement_type.find(", false, true>") != std::string::npos;
 }
 
 }  // namespace hamgen

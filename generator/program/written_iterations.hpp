@@ -280,7 +280,18 @@ class IterationWriter : public RuleWriter {
     if (!form_.lanes) return;
     end_lanes(rule);
     if (!iterate.leaves_last) return move(iterate, lanes_in_turn());
-    if (iterate.work) move(iterate, joined("&", {lanes_in_turn(), makes_last(iterate.name)}));
+    if (!iterate.work) return;
+    foresee(iterate);
+    move(iterate, joined("&", {lanes_in_turn(), makes_last(iterate.name)}));
+  }
+  // What follows the last increment, before it is made.
+  void foresee(const IterateArray& iterate) {
+    const std::vector<WholeUnknowns> arrays = whole_unknowns(routine_, iterate);
+    if (iterate.refinement.empty() || arrays.size() != 1) return;
+    const WholeUnknowns& u = arrays.front();
+    std::vector<Value> given = {object({"start", iterate.name})};
+    for (const Place& array : {u.value, u.increment, u.beside}) given.push_back(object(array));
+    add(Do{action("Refinement", {"start", iterate.refinement}, "foresee", std::move(given))});
   }
   static Value makes_last(const std::string& rule) {
     return action("ContractionRule", {"start", rule}, "moves", {});
@@ -293,7 +304,10 @@ class IterationWriter : public RuleWriter {
     if (moves && moves->leaves_last) {
       Value goes_on = is_verdict("go_on");
       if (moves->work) goes_on = joined("||", {std::move(goes_on), makes_last(moves->name)});
-      branch(std::move(goes_on), Shape::braces, [&] { move(*moves); });
+      branch(std::move(goes_on), Shape::braces, [&] {
+        foresee(*moves);
+        move(*moves);
+      });
     }
     Place size = rule;
     size.field += size.field.empty() ? "size" : ".size";

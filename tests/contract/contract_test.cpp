@@ -149,8 +149,8 @@ const std::pair<std::string, std::string> kLessBend{"bend_of(size) * power(size)
 TEST(ContractIsBroken, WhereTheSumOfAllIncrementsIsAskedAlone) {
   const auto forget_each =
       with({{"uneven <= 0 || is_even(", "uneven >= 0 || is_even("},
-            {"bend * part * part * 16 > round_off * move * move", "part < 0"},
-            {"65536 * epsilon * seen.shortest", "65536 * round_off + 0 * seen.shortest"},
+            {"bend * part * part * 16384 > round_off * move * move", "part < 0"},
+            {"64 * epsilon * seen.shortest", "64 * round_off + 0 * seen.shortest"},
             kLessBend,
             {"if (fresh <= 0) return;", "if (fresh > 0) --fresh; return;"},
             {"size * size * size <= epsilon * round_off", "size >= 0"}});
@@ -163,7 +163,7 @@ TEST(ContractIsBroken, WhereAllUnknownsHaveOneUnit) {
   const auto forget_units =
       with({{"1 / (size_of(length[j], moved[j]) + total / 1099511627776 + smallest)", "1"},
             {"if (++age >= 16) follow(value, count);", ""},
-            {"bend * part * part * 16 > round_off * move * move", "part < 0"},
+            {"bend * part * part * 16384 > round_off * move * move", "part < 0"},
             {"* ratio * ratio", "* ratio * 0"}});
   const Case c = case_of("unlike_units", "small", {}, 100);
   EXPECT_LE(Interpretable(c.model).measure(c).worst, kAllowed);
@@ -185,7 +185,7 @@ void expect_broken(std::span<const Hole> holes) {
 }
 TEST(ContractIsBroken, WhereNoUnknownIsAskedByItself) {
   const Hole holes[] = {{case_of("free_wall", "harder", {}, 400),
-                         {{"bend * part * part * 16 > round_off * move * move", "part < 0"}}},
+                         {{"bend * part * part * 16384 > round_off * move * move", "part < 0"}}},
                         {case_of("saddle", "fall", {}, 40),
                          {{"* ratio * ratio", "* ratio * 0"},
                           {"size * size * size <= epsilon * round_off", "size >= 0"}}}};

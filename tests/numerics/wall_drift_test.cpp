@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "benchmarks/drift/rows.hpp"
 #include "benchmarks/emitted_program.hpp"
@@ -43,13 +46,16 @@ int main() {
 }
 )";
 
-// Of a method's header with one line instead of another.
-double error_of(const Request& request, const std::string& line, const std::string& other) {
-  std::string header = emitted_header(kWalls, request, "double", "walls");
+std::string with_line(std::string header, const std::string& line, const std::string& other) {
   const std::size_t place = header.find(line);
   if (place == std::string::npos) throw std::runtime_error("not in the header: " + line);
-  header.replace(place, line.size(), other);
-  return std::stod(output_of_program({{"walls.hpp", header}}, kFlight, {"-O1"}));
+  return header.replace(place, line.size(), other);
+}
+// Of a method's header with one line instead of another.
+double error_of(const Request& request, const std::string& line, const std::string& other) {
+  const std::string header = emitted_header(kWalls, request, "double", "walls");
+  const std::string changed = with_line(header, line, other);
+  return std::stod(output_of_program({{"walls.hpp", changed}}, kFlight, {"-O1"}));
 }
 
 // A random walk of a million steps is some 1e-15: what is allowed are 1e-4 roundings a step.
@@ -63,9 +69,89 @@ TEST(WallDrift, IsNoneWhereTheBendIsLostAsWhatIsMeasured) {
 // times.
 TEST(WallDrift, IsNoneOfGaussWhereRoundsGoOnToATinyPartOfAUnit) {
   const Request request{.scheme = "gauss-4", .solver = "fixed-point"};
-  const std::string fewest = "amplifier < 4096 ? 32 : 1024;";
+  const std::string fewest = "TwoForms && amplifier > 4096 ? 1024 : 32;";
   EXPECT_LT(std::abs(error_of(request, fewest, fewest)), 1.1e-14);
   EXPECT_GT(std::abs(error_of(request, fewest, "32;")), 3e-14);
+}
+
+// N of them, the first of which are between walls of their own, that they do not meet at the same
+// time, the others at springs; what couples them makes them one system, and no more.
+std::string row_of(int size, int walled) {
+  const std::string first = std::to_string(walled);
+  const std::string springs =
+      walled < size ? " + sum(i=" + std::to_string(walled + 1) + "..N, q[i]^2/200)" : "";
+  return "system row\nsize N = " + std::to_string(size) +
+         "\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+         "H = sum(i=1..N, p[i]^2/2) + sum(i=1..N-1, q[i]*q[i+1]/10^25)" +
+         springs + " + sum(i=1.." + first + ", exp(40*(q[i] - 1)) + exp(-40*(q[i] + 1)))\n";
+}
+// The root of the mean square of the errors between walls.
+constexpr const char* kFlights = R"(
+#include <cmath>
+#include <cstdio>
+
+constexpr int size = sizeof(row::State) / sizeof(double) / 2;
+
+static long double energy(long double q, long double p) {
+  return p * p / 2 + std::exp(40 * (q - 1)) + std::exp(-40 * (q + 1));
+}
+
+int main() {
+  row::State z;
+  double* const first = reinterpret_cast<double*>(&z);
+  long double energies[size], errors[walled] = {};
+  int counts[walled] = {};
+  for (int i = 0; i < size; ++i) {
+    first[size + i] = 0.5 + i * 0.39 / size;
+    energies[i] = energy(0, first[size + i]);
+  }
+  row::Propagator run(row::Parameters{}, 0.005, z);
+  if (!run.advance(400000).converged) return 1;
+  const double* const now = reinterpret_cast<const double*>(&run.state());
+  const double* const carry = reinterpret_cast<const double*>(&run.carry());
+  for (int step = 0; step < 2000; ++step) {
+    if (!run.step().converged) return 1;
+    for (int i = 0; i < walled; ++i) {
+      if (std::fabs(now[i]) > 0.15) continue;
+      const long double q = (long double)(now[i]) + carry[i];
+      const long double p = (long double)(now[size + i]) + carry[size + i];
+      errors[i] += energy(q, p) / energies[i] - 1;
+      ++counts[i];
+    }
+  }
+  long double squares = 0;
+  for (int i = 0; i < walled; ++i) squares += errors[i] / counts[i] * errors[i] / counts[i];
+  std::printf("%g", double(std::sqrt(squares / walled)));
+}
+)";
+double errors_of(int size, int walled, const Request& request,
+                 const std::vector<std::pair<std::string, std::string>>& lines) {
+  std::string header = emitted_header(row_of(size, walled), request, "double", "row");
+  for (const auto& [line, other] : lines) header = with_line(header, line, other);
+  const std::string program = "\nconstexpr int walled = " + std::to_string(walled) + ";" + kFlights;
+  return std::stod(output_of_program({{"row.hpp", header}}, program, {"-O1"}));
+}
+
+// The random walk is some 7e-16, and what is allowed, 1e-4 roundings a step, 4.4e-15.
+TEST(WallDrift, IsNoneOfManyWhereAnIncrementLeavesEachLittle) {
+  const Request newton{.solver = "newton"};
+  EXPECT_LT(errors_of(12, 12, newton, {}), 4.4e-15);
+  EXPECT_GT(errors_of(12, 12, newton,
+                      {{"part * part * 16384 > round_off", "part * part * 16 > round_off"},
+                       {"size * size * 16384 <= epsilon * length;",
+                        "size * size * 16 <= epsilon * length;"},
+                       {"size * size * 16384 <= epsilon * length * One",
+                        "size * size * 16 <= epsilon * length * One"},
+                       {"contraction * parts * 16384", "contraction * parts * 16"},
+                       {"(size) * parts * 16384", "(size) * parts * 16"},
+                       {"64 * epsilon * seen.shortest", "65536 * epsilon * seen.shortest"}}),
+            1e-14);
+}
+// Most contract by a 1e7th, and two by a 300th for some steps.
+TEST(WallDrift, IsNoneOfAFixedPointInLoopsThatLooksAtWhatFollows) {
+  const Request fixed_point{.solver = "fixed-point"};
+  EXPECT_LT(errors_of(30, 2, fixed_point, {}), 4.4e-15);
+  EXPECT_GT(errors_of(30, 2, fixed_point, {{"&& !waits && !doubted", "&& !waits"}}), 1e-13);
 }
 
 }  // namespace

@@ -40,6 +40,45 @@ TYPED_TEST(ContractionRule, SettlesWhatIsLostWithTheSafety) {
   EXPECT_TRUE(rule.settled);
 }
 
+// Of two unknowns one is far from its end: what is told of both together may not be true of it.
+TYPED_TEST(ContractionRule, IsSureOnlyWhereEachUnknownWasNear) {
+  using Number = typename TestFixture::Number;
+  const auto of_both = [](double loud) {
+    typename TypeParam::Moved distance;
+    distance.units = 64;
+    distance.add(Number(0.01) * TypeParam::unit, Number(9));
+    distance.add(Number(loud) * TypeParam::unit, Number(1));
+    return distance;
+  };
+  for (const double loud : {40.0, 80.0}) {
+    auto rule = this->with_contraction(1.0 / (1 << 12));
+    (void)rule(of_both(loud), 1);
+    EXPECT_FALSE(rule.sure);
+    EXPECT_EQ(rule(of_both(0.2), 2), TypeParam::Answer::done);
+    EXPECT_TRUE(rule.settled);
+    EXPECT_EQ(rule.sure, loud < 64) << loud;
+    rule.begin(0);
+    (void)this->show(rule, 0.2, 1);
+    EXPECT_FALSE(rule.sure) << "of the step before";
+  }
+}
+
+// In a step whose way is a 64th 2^-20 units are a 2^-14th of a rounding of it: what follows an
+// increment of 64 units and is a 2^-13th of it leaves so much.
+TYPED_TEST(ContractionRule, LooksAtWhatFollowsTheLastIncrement) {
+  using Number = typename TestFixture::Number;
+  auto rule = this->with_contraction(1.0 / (1 << 14));
+  (void)this->show(rule, 64, 1);
+  rule.way = TypeParam::two_to(-6);
+  const auto follows = [&](int bits) { return TypeParam::unit * TypeParam::two_to(6 - bits); };
+  EXPECT_FALSE(rule.is_lost_behind(follows(12)));
+  EXPECT_TRUE(rule.is_lost_behind(follows(13)));
+  rule.begin(0);
+  (void)this->show(rule, 64, 1);
+  EXPECT_FALSE(rule.is_lost_behind(follows(13))) << "no way is known";
+  EXPECT_TRUE(rule.is_lost_behind(Number(0)));
+}
+
 TYPED_TEST(ContractionRule, LeavesMoreThanThatToRefinement) {
   auto rule = this->with_contraction(1.0 / (1 << 4));
   EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
@@ -269,6 +308,7 @@ TYPED_TEST(ContractionRule, LearnsFromRefinement) {
     auto rule = this->with_contraction(1.0 / (1 << 14));
     EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
     rule.settled = settled;
+    rule.sure = true;
     typename TypeParam::template Refined<1, 2> refinement;
     Real point[1] = {solution + TypeParam::unit};
     const Real rounded = point[0];
@@ -299,6 +339,30 @@ TYPED_TEST(ContractionRule, IsNotBelievedAgainstWhatIsSeen) {
   EXPECT_FALSE(rule.settled);
 }
 
+// x = a + c x behind an increment of 16 units and a third, the third taken by rounding: only where
+// what follows shows that it is lost the rule is believed.
+TYPED_TEST(ContractionRule, IsBelievedWhereWhatFollowsShowsIt) {
+  using Real = typename TypeParam::Scalar;
+  const Real third = TypeParam::unit / 3;
+  const auto ends_at_once = [&](double contraction, double from) {
+    auto rule = this->with_contraction(1.0 / (1 << 14));
+    EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
+    EXPECT_TRUE(rule.settled && !rule.sure);
+    typename TypeParam::template Refined<1, 2> refinement;
+    Real point[1] = {1};
+    const Real start[1] = {Real(from)};
+    const Real increment[1] = {16 * TypeParam::unit + third};
+    refinement.foresee(rule, point, increment, start);
+    point[0] += increment[0];
+    const Real slope[2] = {0, 0};
+    const Real lack[1] = {third + Real(contraction) * 16 * TypeParam::unit};
+    return !refinement(rule, point, lack, slope);
+  };
+  EXPECT_TRUE(ends_at_once(0x1p-12, 0.5));
+  EXPECT_FALSE(ends_at_once(0x1p-6, 0.5));
+  EXPECT_FALSE(ends_at_once(0x1p-12, 1)) << "where it has not moved";
+}
+
 // Beside a large unknown a small one counts for nothing in the sums: where it has not come to its
 // end all go on, and where that brings it no nearer fast enough, Refinement does.
 TYPED_TEST(ContractionRule, SettlesNoUnknownThatIsSmallBesideOthers) {
@@ -307,6 +371,7 @@ TYPED_TEST(ContractionRule, SettlesNoUnknownThatIsSmallBesideOthers) {
     auto rule = this->with_contraction(1.0 / (1 << 14));
     EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
     rule.round_off = (1 << 20) * TypeParam::unit;
+    rule.sure = true;
     typename TypeParam::template Refined<2, 2> refinement;
     Real point[2] = {1 << 20, 1 + 1000 * TypeParam::unit};
     int evaluations = 0;

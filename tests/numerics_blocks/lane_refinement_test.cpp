@@ -65,6 +65,8 @@ TEST(LaneRefinement, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
       rule.learn(true, given);
       rule.begin(turn, 0);
       rule(moved_by(lanes::Real(16 * 0x1p-52)), 1);
+      const lanes::Real nothing[2] = {0, 0};
+      if (ruled) together.foresee(rule, x, nothing, nothing);
       refined(
           [&](auto& point, const auto& lack, const auto& slope) {
             return ruled ? together(turn, rule, point, lack, slope)
@@ -85,6 +87,8 @@ TEST(LaneRefinement, WhatRoundingLacksIsFoundInEachLaneAsAlone) {
         other.learn(known(lane));
         other.begin(0);
         other(moved_by(16 * 0x1p-52), 1);
+        const double nothing[2] = {0, 0};
+        if (ruled) alone.foresee(other, y, nothing, nothing);
         refined(
             [&](auto& point, const auto& lack, const auto& slope) {
               return ruled ? alone(other, point, lack, slope) : alone(point, lack, slope);
@@ -127,6 +131,7 @@ int expect_small_unknowns_end_alike(double large, int units) {
   rule.contraction = 0x1p-20;
   rule.round_off = large * 0x1p-52;
   rule.settled = true;
+  rule.sure = true;
   for (bool more = true; more;) {
     const lanes::Real error = x[1] - 1;
     const lanes::Real lack[2] = {0, b * error - error};
@@ -141,6 +146,7 @@ int expect_small_unknowns_end_alike(double large, int units) {
     other.contraction = 0x1p-20;
     other.round_off = large * 0x1p-52;
     other.settled = lane != 4;
+    other.sure = true;
     for (bool more = lane != 4; more;) {
       const double error = y[1] - 1;
       const double lack[2] = {0, contractions[lane] * error - error};

@@ -37,7 +37,8 @@ TYPED_TEST(NewtonRuleOfMany, OneIncrementIsNotEnoughForAnUnknownThatIsAllIncreme
   using Real = typename TypeParam::Scalar;
   using Verdict = typename TypeParam::Answer;
   const auto sums = [](auto& rule, Real size, Real uneven, int iteration) {
-    return rule.of_sums(&size, &size, size, uneven, size, Real(1), 1, iteration);
+    const Real length = 1;
+    return rule.of_sums(&length, &size, size, uneven, size, length, 1, iteration);
   };
   const Real size = this->small();
   for (const Real uneven : {Real(0), TypeParam::unit, Real(1)}) {

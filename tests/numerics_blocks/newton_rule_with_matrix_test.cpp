@@ -80,8 +80,8 @@ TYPED_TEST(NewtonRuleWithMatrix, WhatMovesTogetherHasNotMoved) {
   EXPECT_EQ(rule.moves[0], harder * apart / (harder * (2 + apart)));
   EXPECT_EQ(rule.motion.least, rule.moves[0]);
   EXPECT_EQ(rule.bends[0], harder * (2 + apart));
-  // An increment of a 2^-24th: it leaves bend (increment / move)^2, 2^-30 of their size.
-  const Real moved[2] = {TypeParam::two_to(-24), TypeParam::two_to(-24)};
+  // An increment of a 2^-29th: it leaves bend (increment / move)^2, 2^-38 of their size.
+  const Real moved[2] = {TypeParam::two_to(-29), TypeParam::two_to(-29)};
   const Real length[2] = {1, 1};
   EXPECT_EQ(rule.is_in_reach(moved, length, length, 2), TypeParam::bits == 24);
 }

@@ -68,7 +68,7 @@ static inline bool NewtonRule_is_in_reach(const NewtonRule* rule, const Real* mo
     const Real round_off =
         epsilon * NewtonRule_felt(rule, magnitude(length[j]), way[j]) * rule->unit[j];
     if (bend <= 1024 * epsilon) continue;
-    if (bend * part * part * 16 > round_off * move * move) return false;
+    if (bend * part * part * 16384 > round_off * move * move) return false;
   }
   return true;
 }
@@ -117,9 +117,9 @@ static inline Verdict NewtonRule_judge(NewtonRule* rule, Real size, Real scale, 
                       rule->contraction * size * 8192 <= round_off;
   const Real parts = size * uneven;
   const Real bend = rule->bend > size ? rule->bend : size;
-  const bool bends = bend * parts * 16 > epsilon * NewtonRule_power(rule, rule->move);
-  const bool even = rule->previous > 0 ? uneven * 16 <= epsilon
-                                       : !bends && rule->contraction * parts * 16 <= epsilon;
+  const bool bends = bend * parts * 16384 > epsilon * NewtonRule_power(rule, rule->move);
+  const bool even = rule->previous > 0 ? uneven * 16384 <= epsilon
+                                       : !bends && rule->contraction * parts * 16384 <= epsilon;
   const bool in_reach =
       rule->previous > 0 || NewtonRule_is_in_reach(rule, moved, length, way, many);
   const bool serves = in_reach && (rule->power == 1 ? !waits : uneven <= 0 || even);
@@ -160,8 +160,8 @@ static inline bool NewtonRule_is_lost_in(const NewtonRule* rule, Real length, Re
   const Real round_off = epsilon * length;
   const Real bend = rule->bend > size ? rule->bend : size;
   const bool straight =
-      rule->previous <= 0 && bend * size * size * 16 <= round_off * rule->move * rule->move;
-  return straight && rule->contraction * size * size * 16 <= round_off;
+      rule->previous <= 0 && bend * size * size * 16384 <= round_off * rule->move * rule->move;
+  return straight && rule->contraction * size * size * 16384 <= round_off;
 }
 static inline Real NewtonRule_size_of(Real length, Real moved) {
   const Real value = magnitude(length);
