@@ -25,7 +25,7 @@ struct Refinement {
   Real contraction = 1;          // what a round moved of what the one before did
   Real stuck = 0;                // rounds that moved no less
   Mask doubted = false;          // lanes where what is settled is not seen
-  bool ahead = false;            // has some lane gone ahead?
+  bool went_ahead = false;       // has some lane?
   Mask open = false;             // lanes that want more
   Mask found = true;             // lanes where the solution was at the end
   Mask asked = false;            // lanes of which a rule wants to see two rounds more
@@ -54,9 +54,9 @@ struct Refinement {
     if (rounds == 0) {
       asked = rule.rounds_asked();
       rule.settled = turn.lanes & rule.settled;
-      if (!ahead) doubt(rule, lack);
-      ahead = goes_ahead(rule, point, lack);
-      if (ahead) return true;
+      if (!went_ahead) doubt(rule, lack);
+      went_ahead = goes_ahead(rule, point, lack);
+      if (went_ahead) return true;
       begin(turn.lanes, point, lack, gradient);
       open = open & !rule.settled;
     }
