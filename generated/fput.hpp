@@ -143,11 +143,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_df1f966f::float64 {
+namespace hamgen_49fcda44::float64 {
 using Real = double;
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_STEP_REPORT
-#define HAMGEN_DF1F966F_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_49FCDA44_FLOAT64_STEP_REPORT
+#define HAMGEN_49FCDA44_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -157,15 +157,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_VOCABULARY
-#define HAMGEN_DF1F966F_FLOAT64_VOCABULARY
+#ifndef HAMGEN_49FCDA44_FLOAT64_VOCABULARY
+#define HAMGEN_49FCDA44_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_TWO_SUM
-#define HAMGEN_DF1F966F_FLOAT64_TWO_SUM
+#ifndef HAMGEN_49FCDA44_FLOAT64_TWO_SUM
+#define HAMGEN_49FCDA44_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -175,8 +175,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_SUM_WITH_REST
-#define HAMGEN_DF1F966F_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_49FCDA44_FLOAT64_SUM_WITH_REST
+#define HAMGEN_49FCDA44_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -188,8 +188,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_SUMS
-#define HAMGEN_DF1F966F_FLOAT64_SUMS
+#ifndef HAMGEN_49FCDA44_FLOAT64_SUMS
+#define HAMGEN_49FCDA44_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -240,8 +240,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_BAND_MATRIX
-#define HAMGEN_DF1F966F_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_49FCDA44_FLOAT64_BAND_MATRIX
+#define HAMGEN_49FCDA44_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -306,8 +306,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_DF1F966F_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_49FCDA44_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_49FCDA44_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -372,14 +372,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_VERDICT
-#define HAMGEN_DF1F966F_FLOAT64_VERDICT
+#ifndef HAMGEN_49FCDA44_FLOAT64_VERDICT
+#define HAMGEN_49FCDA44_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE
-#define HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_49FCDA44_FLOAT64_NEWTON_RULE
+#define HAMGEN_49FCDA44_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -552,8 +552,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_DF1F966F_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_49FCDA44_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_49FCDA44_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -823,8 +823,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_DF1F966F_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_49FCDA44_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_49FCDA44_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -847,8 +847,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_DF1F966F_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_49FCDA44_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_49FCDA44_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
@@ -973,8 +973,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_DF1F966F_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_49FCDA44_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_49FCDA44_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -1000,10 +1000,10 @@ struct FixedPointRule {
 // all together is not true of that one.  Of 30 with two between walls exp(40 (q - 1)) these were
 // thousands of units from their end and ended with the first increment: their energies were off by
 // 6e-2 of a rounding more in every step.  Where each unknown was near before the last increment
-// that is sure to be little.  Else what follows the increment is looked at: what the equations lack
-// behind it, less what rounding took from it, which is known without an error, and no more than a
-// 2^-14th of a rounding of the momenta, of which the unknowns' way is 1/h, may follow that in the
-// same ratio.
+// that is sure to be little.  Else Refinement looks at what follows the increment of each: what the
+// equations lack behind it, less what rounding took from it, which is known without an error.  No
+// more than a 2^-14th of the rounding of its momentum, of which its way is 1/h, may follow that in
+// the same ratio.  (Asked of sums it was 8e-2 of a rounding beside others that are louder.)
 //
 // Note [of one or of two]
 // Where coordinates move momenta and these the coordinates, two increments are in a ratio to each
@@ -1022,7 +1022,6 @@ struct ContractionRule {
   int unchecked = 0;
   bool near = false;  // is each unknown?
   bool sure = false;  // was each before the last increment?
-  Real way = 0;       // of all unknowns in the step, where Refinement foresees what follows
   bool settled = false;
 
   // What the other solver's matrix costs, in evaluations of the equations; 0: there is no other.
@@ -1032,7 +1031,6 @@ struct ContractionRule {
     for (Real& each : past) each = 0;
     work = matrix_work;
     near = false;
-    way = 0;
     settled = false;
   }
   Verdict operator()(const Distance& moved, int iterations) {
@@ -1060,10 +1058,6 @@ struct ContractionRule {
     const bool goes_on = before > 0 ? grows && work > 0 : contraction >= largest || is_lost(next());
     const bool may_go_on = size > 0 && iterations < 500;
     return verdict == Verdict::done && goes_on && may_go_on ? Verdict::go_on : verdict;
-  }
-  // See Note [what is far from its end].
-  bool is_lost_behind(Real follows) const {
-    return Cycle == 1 && follows * follows * 16384 <= epsilon * way * size;
   }
   // Is the last increment made?  See Note [who has chosen the point].
   bool moves() const { return settled || contraction * of_two(96) <= 1; }
@@ -1126,8 +1120,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_REFINEMENT
-#define HAMGEN_DF1F966F_FLOAT64_REFINEMENT
+#ifndef HAMGEN_49FCDA44_FLOAT64_REFINEMENT
+#define HAMGEN_49FCDA44_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1181,22 +1175,25 @@ struct Refinement {
   int rounds = 0;
   int asked = 0;  // rounds that a rule wants to see behind the first
   bool changes = false;
+  bool foreseen = false;
   bool doubted = false;  // what a rule has settled, by what was seen
   bool looks = false;    // at what the other form lacks there
   Real lacked[looks_twice ? Size : 1] = {};
   Real sloped[looks_twice ? Components : 1] = {};  // the gradient with it
   bool found = true;  // was the solution at the end, or does the map not contract?
 
-  // Before the last increment is made of a rule that is not sure: what rounding takes from it of
-  // each unknown, and how far these have come in the step.
+  // Before the last increment is made of a rule that is not sure: of each unknown what it is, what
+  // rounding takes from it, and how far the unknown has come in the step.
   template <class Rule>
-  void foresee(Rule& rule, const Real* point, const Real* increment, const Real* from) {
+  void foresee(const Rule& rule, const Real* point, const Real* increment, const Real* from) {
     if (rule.sure || !rule.settled) return;
     for (int j = 0; j < Size; ++j) {
       const Real next = point[j] + increment[j];
       moved[j] = increment[j] - (next - point[j]);
+      missing[j] = magnitude(increment[j]);
+      at[j] = magnitude(point[j] - from[j]);
     }
-    rule.way = sum_of<Size>([&](int j) { return magnitude(point[j] - from[j]); });
+    foreseen = true;
   }
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
@@ -1206,7 +1203,8 @@ struct Refinement {
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled) {
-      if (behind <= 0) doubted = !rule.sure && !is_lost_behind(rule, lack);
+      if (behind <= 0) doubted = !rule.sure && !(foreseen && is_lost_behind(lack));
+      foreseen = false;
       const bool seen = lacking(lack) > rule.round_off;
       const Real open = left(point, lack, seen ? 64 : 8);
       const bool waits = open > epsilon * epsilon * rule.round_off;
@@ -1266,9 +1264,15 @@ struct Refinement {
     return more;
   }
 
-  template <class Rule>
-  bool is_lost_behind(const Rule& rule, const Real* lack) const {
-    return rule.is_lost_behind(sum_of<Size>([&](int j) { return magnitude(lack[j] - moved[j]); }));
+  // Is what follows each increment, and that again in the same ratio?  Some roundings of its way
+  // are those of the equations.
+  bool is_lost_behind(const Real* lack) const {
+    return sum_of<Size>([&](int j) {
+             const Real round_off = epsilon * at[j];
+             const Real follows = magnitude(lack[j] - moved[j]);
+             const Real next = follows * (follows / missing[j]);
+             return follows > 4 * round_off && next * 16384 > round_off ? follows : Real(0);
+           }) <= 0;
   }
   void forget_changes() {
     changes = false;
@@ -1358,8 +1362,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_HISTORY
-#define HAMGEN_DF1F966F_FLOAT64_HISTORY
+#ifndef HAMGEN_49FCDA44_FLOAT64_HISTORY
+#define HAMGEN_49FCDA44_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1460,8 +1464,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_DF1F966F_FLOAT64_FORGET
-#define HAMGEN_DF1F966F_FLOAT64_FORGET
+#ifndef HAMGEN_49FCDA44_FLOAT64_FORGET
+#define HAMGEN_49FCDA44_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1471,17 +1475,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_df1f966f::float64
+}  // namespace hamgen_49fcda44::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xac06a4e3
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x3046c046
 namespace fput::implicit_midpoint {
-inline namespace emitted_ac06a4e3 {
+inline namespace emitted_3046c046 {
 
-namespace numerics = ::hamgen_df1f966f::float64;
+namespace numerics = ::hamgen_49fcda44::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1827,9 +1831,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_ac06a4e3
+}  // namespace emitted_3046c046
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xac06a4e3
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x3046c046
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -23,10 +23,10 @@
 // all together is not true of that one.  Of 30 with two between walls exp(40 (q - 1)) these were
 // thousands of units from their end and ended with the first increment: their energies were off by
 // 6e-2 of a rounding more in every step.  Where each unknown was near before the last increment
-// that is sure to be little.  Else what follows the increment is looked at: what the equations lack
-// behind it, less what rounding took from it, which is known without an error, and no more than a
-// 2^-14th of a rounding of the momenta, of which the unknowns' way is 1/h, may follow that in the
-// same ratio.
+// that is sure to be little.  Else Refinement looks at what follows the increment of each: what the
+// equations lack behind it, less what rounding took from it, which is known without an error.  No
+// more than a 2^-14th of the rounding of its momentum, of which its way is 1/h, may follow that in
+// the same ratio.  (Asked of sums it was 8e-2 of a rounding beside others that are louder.)
 //
 // Note [of one or of two]
 // Where coordinates move momenta and these the coordinates, two increments are in a ratio to each
@@ -45,7 +45,6 @@ struct ContractionRule {
   int unchecked = 0;
   bool near = false;  // is each unknown?
   bool sure = false;  // was each before the last increment?
-  Real way = 0;       // of all unknowns in the step, where Refinement foresees what follows
   bool settled = false;
 
   // What the other solver's matrix costs, in evaluations of the equations; 0: there is no other.
@@ -55,7 +54,6 @@ struct ContractionRule {
     for (Real& each : past) each = 0;
     work = matrix_work;
     near = false;
-    way = 0;
     settled = false;
   }
   Verdict operator()(const Distance& moved, int iterations) {
@@ -83,10 +81,6 @@ struct ContractionRule {
     const bool goes_on = before > 0 ? grows && work > 0 : contraction >= largest || is_lost(next());
     const bool may_go_on = size > 0 && iterations < 500;
     return verdict == Verdict::done && goes_on && may_go_on ? Verdict::go_on : verdict;
-  }
-  // See Note [what is far from its end].
-  bool is_lost_behind(Real follows) const {
-    return Cycle == 1 && follows * follows * 16384 <= epsilon * way * size;
   }
   // Is the last increment made?  See Note [who has chosen the point].
   bool moves() const { return settled || contraction * of_two(96) <= 1; }

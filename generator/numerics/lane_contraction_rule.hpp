@@ -10,7 +10,6 @@ struct ContractionRule : FixedPointRule<2> {
   bool checks = false;
   Mask near = false;  // is each unknown?
   Mask sure = false;  // was each before the last increment?
-  Real way = 0;       // of all unknowns in the step, where Refinement foresees what follows
   Mask settled = false;
 
   // What the other solver's matrix costs, in evaluations of the equations; 0: there is no other.
@@ -21,7 +20,6 @@ struct ContractionRule : FixedPointRule<2> {
     work = matrix_work;
     checks = turn.is_check();
     near = false;
-    way = 0;
     settled = false;
   }
   Mask operator()(const Distance& moved, int iterations) {
@@ -50,9 +48,6 @@ struct ContractionRule : FixedPointRule<2> {
         (size > 0) & Mask(iterations < 500) & ((measured & grows) | (another & !measured));
     judgement.done = settles | (judgement.done & !goes_on);
     return end(judgement);
-  }
-  Mask is_lost_behind(const Real& follows) const {
-    return Mask(Cycle == 1) & (follows * follows * 16384 <= epsilon * way * size);
   }
   // Is the last increment made?
   Mask moves() const { return settled | (contraction * of_two(Real(96)) <= 1); }

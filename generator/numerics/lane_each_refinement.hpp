@@ -25,24 +25,25 @@ struct Refinement {
   Real contraction = 1;          // what a round moved of what the one before did
   Real stuck = 0;                // rounds that moved no less
   Mask doubted = false;          // lanes where what is settled is not seen
-  bool went_ahead = false;       // has some lane?
-  Mask open = false;             // lanes that want more
-  Mask found = true;             // lanes where the solution was at the end
-  Mask asked = false;            // lanes of which a rule wants to see two rounds more
+  Mask foreseen = false;
+  bool went_ahead = false;  // has some lane?
+  Mask open = false;        // lanes that want more
+  Mask found = true;        // lanes where the solution was at the end
+  Mask asked = false;       // lanes of which a rule wants to see two rounds more
   int rounds = 0;
 
-  // Before the last increment is made in lanes of which a rule is not sure: what rounding takes
-  // from it of each unknown, and how far these have come in the step.
+  // Before the last increment is made in lanes of which a rule is not sure: of each unknown what it
+  // is, what rounding takes from it, and how far the unknown has come in the step.
   template <class Rule>
-  void foresee(Rule& rule, const Real* point, const Real* increment, const Real* from) {
-    const Mask lanes = rule.settled & !rule.sure;
-    if (!any(lanes)) return;
+  void foresee(const Rule& rule, const Real* point, const Real* increment, const Real* from) {
+    foreseen = rule.settled & !rule.sure;
+    if (!any(foreseen)) return;
     for (int j = 0; j < Size; ++j) {
       const Real next = point[j] + increment[j];
-      moved[j] = select(lanes, increment[j] - (next - point[j]), moved[j]);
+      moved[j] = select(foreseen, increment[j] - (next - point[j]), moved[j]);
+      missing[j] = select(foreseen, magnitude(increment[j]), missing[j]);
+      at[j] = select(foreseen, magnitude(point[j] - from[j]), at[j]);
     }
-    const Real way = sum_of(Size, [&](int j) { return magnitude(point[j] - from[j]); });
-    rule.way = select(lanes, way, rule.way);
   }
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
@@ -82,8 +83,14 @@ struct Refinement {
   void doubt(const Rule& rule, const Real* lack) {
     doubted = rule.settled & !rule.sure;
     if (!any(doubted)) return;
-    const Real follows = sum_of(Size, [&](int j) { return magnitude(lack[j] - moved[j]); });
-    doubted = doubted & !rule.is_lost_behind(follows);
+    const Real seen = sum_of(Size, [&](int j) {
+      const Real round_off = epsilon * at[j];
+      const Real follows = magnitude(lack[j] - moved[j]);
+      const Real next = follows * (follows / missing[j]);
+      return select((follows > 4 * round_off) & (next * 16384 > round_off), follows, Real(0));
+    });
+    doubted = doubted & !(foreseen & (seen <= 0));
+    foreseen = false;
   }
   // As long as some small unknowns have not come to their end, all of that lane go on.
   template <class Rule>

@@ -51,22 +51,25 @@ struct Refinement {
   int rounds = 0;
   int asked = 0;  // rounds that a rule wants to see behind the first
   bool changes = false;
+  bool foreseen = false;
   bool doubted = false;  // what a rule has settled, by what was seen
   bool looks = false;    // at what the other form lacks there
   Real lacked[looks_twice ? Size : 1] = {};
   Real sloped[looks_twice ? Components : 1] = {};  // the gradient with it
   bool found = true;  // was the solution at the end, or does the map not contract?
 
-  // Before the last increment is made of a rule that is not sure: what rounding takes from it of
-  // each unknown, and how far these have come in the step.
+  // Before the last increment is made of a rule that is not sure: of each unknown what it is, what
+  // rounding takes from it, and how far the unknown has come in the step.
   template <class Rule>
-  void foresee(Rule& rule, const Real* point, const Real* increment, const Real* from) {
+  void foresee(const Rule& rule, const Real* point, const Real* increment, const Real* from) {
     if (rule.sure || !rule.settled) return;
     for (int j = 0; j < Size; ++j) {
       const Real next = point[j] + increment[j];
       moved[j] = increment[j] - (next - point[j]);
+      missing[j] = magnitude(increment[j]);
+      at[j] = magnitude(point[j] - from[j]);
     }
-    rule.way = sum_of<Size>([&](int j) { return magnitude(point[j] - from[j]); });
+    foreseen = true;
   }
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
@@ -76,7 +79,8 @@ struct Refinement {
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled) {
-      if (behind <= 0) doubted = !rule.sure && !is_lost_behind(rule, lack);
+      if (behind <= 0) doubted = !rule.sure && !(foreseen && is_lost_behind(lack));
+      foreseen = false;
       const bool seen = lacking(lack) > rule.round_off;
       const Real open = left(point, lack, seen ? 64 : 8);
       const bool waits = open > epsilon * epsilon * rule.round_off;
@@ -136,9 +140,15 @@ struct Refinement {
     return more;
   }
 
-  template <class Rule>
-  bool is_lost_behind(const Rule& rule, const Real* lack) const {
-    return rule.is_lost_behind(sum_of<Size>([&](int j) { return magnitude(lack[j] - moved[j]); }));
+  // Is what follows each increment, and that again in the same ratio?  Some roundings of its way
+  // are those of the equations.
+  bool is_lost_behind(const Real* lack) const {
+    return sum_of<Size>([&](int j) {
+             const Real round_off = epsilon * at[j];
+             const Real follows = magnitude(lack[j] - moved[j]);
+             const Real next = follows * (follows / missing[j]);
+             return follows > 4 * round_off && next * 16384 > round_off ? follows : Real(0);
+           }) <= 0;
   }
   void forget_changes() {
     changes = false;

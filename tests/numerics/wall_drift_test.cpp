@@ -102,7 +102,7 @@ int main() {
   long double energies[size], errors[walled] = {};
   int counts[walled] = {};
   for (int i = 0; i < size; ++i) {
-    first[size + i] = 0.5 + i * 0.39 / size;
+    first[size + i] = (i < walled ? 1 : loud) * (0.5 + i * 0.39 / size);
     energies[i] = energy(0, first[size + i]);
   }
   row::Propagator run(row::Parameters{}, 0.005, z);
@@ -125,10 +125,11 @@ int main() {
 }
 )";
 double errors_of(int size, int walled, const Request& request,
-                 const std::vector<std::pair<std::string, std::string>>& lines) {
+                 const std::vector<std::pair<std::string, std::string>>& lines, double loud = 1) {
   std::string header = emitted_header(row_of(size, walled), request, "double", "row");
   for (const auto& [line, other] : lines) header = with_line(header, line, other);
-  const std::string program = "\nconstexpr int walled = " + std::to_string(walled) + ";" + kFlights;
+  const std::string program = "\nconstexpr int walled = " + std::to_string(walled) +
+                              ";\nconstexpr double loud = " + std::to_string(loud) + ";" + kFlights;
   return std::stod(output_of_program({{"row.hpp", header}}, program, {"-O1"}));
 }
 
@@ -147,10 +148,12 @@ TEST(WallDrift, IsNoneOfManyWhereAnIncrementLeavesEachLittle) {
                        {"64 * epsilon * seen.shortest", "65536 * epsilon * seen.shortest"}}),
             1e-14);
 }
-// Most contract by a 1e7th, and two by a 300th for some steps.
+// Most contract by a 1e7th, and two by a 300th for some steps; beside others that are louder the
+// walk has a mean, which is within what is allowed.
 TEST(WallDrift, IsNoneOfAFixedPointInLoopsThatLooksAtWhatFollows) {
   const Request fixed_point{.solver = "fixed-point"};
   EXPECT_LT(errors_of(30, 2, fixed_point, {}), 4.4e-15);
+  EXPECT_LT(errors_of(30, 2, fixed_point, {}, 1e6), 8.9e-15);
   EXPECT_GT(errors_of(30, 2, fixed_point, {{"&& !waits && !doubted", "&& !waits"}}), 1e-13);
 }
 

@@ -63,22 +63,6 @@ TYPED_TEST(ContractionRule, IsSureOnlyWhereEachUnknownWasNear) {
   }
 }
 
-// In a step whose way is a 64th 2^-20 units are a 2^-14th of a rounding of it: what follows an
-// increment of 64 units and is a 2^-13th of it leaves so much.
-TYPED_TEST(ContractionRule, LooksAtWhatFollowsTheLastIncrement) {
-  using Number = typename TestFixture::Number;
-  auto rule = this->with_contraction(1.0 / (1 << 14));
-  (void)this->show(rule, 64, 1);
-  rule.way = TypeParam::two_to(-6);
-  const auto follows = [&](int bits) { return TypeParam::unit * TypeParam::two_to(6 - bits); };
-  EXPECT_FALSE(rule.is_lost_behind(follows(12)));
-  EXPECT_TRUE(rule.is_lost_behind(follows(13)));
-  rule.begin(0);
-  (void)this->show(rule, 64, 1);
-  EXPECT_FALSE(rule.is_lost_behind(follows(13))) << "no way is known";
-  EXPECT_TRUE(rule.is_lost_behind(Number(0)));
-}
-
 TYPED_TEST(ContractionRule, LeavesMoreThanThatToRefinement) {
   auto rule = this->with_contraction(1.0 / (1 << 4));
   EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
@@ -339,28 +323,32 @@ TYPED_TEST(ContractionRule, IsNotBelievedAgainstWhatIsSeen) {
   EXPECT_FALSE(rule.settled);
 }
 
-// x = a + c x behind an increment of 16 units and a third, the third taken by rounding: only where
-// what follows shows that it is lost the rule is believed.
-TYPED_TEST(ContractionRule, IsBelievedWhereWhatFollowsShowsIt) {
+// x = a + c x of two unknowns behind increments of 16 units and a third, the third taken by
+// rounding: the rule is believed only where what follows each of them shows that it is lost,
+// however large the other one is.
+TYPED_TEST(ContractionRule, IsBelievedWhereWhatFollowsEachShowsIt) {
   using Real = typename TypeParam::Scalar;
   const Real third = TypeParam::unit / 3;
-  const auto ends_at_once = [&](double contraction, double from) {
+  const Real large = 1 << 20;
+  const auto ends_at_once = [&](double contraction, double from, bool looks = true) {
     auto rule = this->with_contraction(1.0 / (1 << 14));
     EXPECT_EQ(this->show(rule, 16, 1), TypeParam::Answer::done);
     EXPECT_TRUE(rule.settled && !rule.sure);
-    typename TypeParam::template Refined<1, 2> refinement;
-    Real point[1] = {1};
-    const Real start[1] = {Real(from)};
-    const Real increment[1] = {16 * TypeParam::unit + third};
-    refinement.foresee(rule, point, increment, start);
-    point[0] += increment[0];
+    rule.round_off = large * TypeParam::unit;
+    typename TypeParam::template Refined<2, 2> refinement;
+    Real point[2] = {1, large};
+    const Real start[2] = {Real(from), large / 2};
+    Real increment[2] = {16 * TypeParam::unit + third, large * (16 * TypeParam::unit + third)};
+    if (looks) refinement.foresee(rule, point, increment, start);
+    for (int j = 0; j < 2; ++j) point[j] += increment[j];
     const Real slope[2] = {0, 0};
-    const Real lack[1] = {third + Real(contraction) * 16 * TypeParam::unit};
+    const Real lack[2] = {third + Real(contraction) * 16 * TypeParam::unit, large * third};
     return !refinement(rule, point, lack, slope);
   };
-  EXPECT_TRUE(ends_at_once(0x1p-12, 0.5));
-  EXPECT_FALSE(ends_at_once(0x1p-6, 0.5));
-  EXPECT_FALSE(ends_at_once(0x1p-12, 1)) << "where it has not moved";
+  EXPECT_TRUE(ends_at_once(0x1p-10, 0.5));
+  EXPECT_FALSE(ends_at_once(0x1p-2, 0.5)) << "more than the noise of the equations";
+  EXPECT_FALSE(ends_at_once(0x1p-10, 1)) << "where it has not moved";
+  EXPECT_FALSE(ends_at_once(0x1p-10, 0.5, false)) << "where nothing was foreseen";
 }
 
 // Beside a large unknown a small one counts for nothing in the sums: where it has not come to its
