@@ -105,7 +105,7 @@ class MachineIterationCompiler : public MachineMemory<Real> {
             [&] { this->move_each(each); });
       }
       const auto measure = [&] {
-        return this->measure_each(each, are_whole, unknowns.size(), work.has_value());
+        return this->measure_each(each, are_whole, unknowns.size(), leaves_last);
       };
       if (rule == Rule::simplified_newton) {
         AnySimplifiedNewtonRule<Real>& newton = *memory.simplified.at(name);

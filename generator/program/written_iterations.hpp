@@ -262,7 +262,7 @@ class IterationWriter : public RuleWriter {
       if (form_.lanes && newton) set(lanes_in_turn(), at({"start", iterate.name + ".open"}));
       write(iterate.body);
       add(Declare{"Distance", {"distance "}});
-      if (iterate.work) add(Do{action("Distance", {"distance "}, "narrow", {})});
+      if (iterate.leaves_last) add(Do{action("Distance", {"distance "}, "narrow", {})});
       distance_of(iterate);
       // In a loop of their own: g++ 12.2 -O3 loses the last stores where both are in one.
       if (iterate.lanes > 0) write({{moved_in_lanes(iterate)}});
