@@ -11,6 +11,7 @@ struct Refinement {
     return power;
   }
   static constexpr double amplifier = find_amplifier();
+  static constexpr double tiny = 1 / largest;  // beside a unit that is nothing
   static constexpr double fewest = TwoForms ? 1024 : 32;
   Real change[Components] = {};  // of the gradient, from the rounded point to the solution
   Real slope[Components] = {};   // the gradient at the rounded point
@@ -21,6 +22,7 @@ struct Refinement {
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
+  Real parts = 0;                // what the last round moved each, in its units, all together
   Real least = 0;                // of these
   Real contraction = 1;          // what a round moved of what the one before did
   Real stuck = 0;                // rounds that moved no less
@@ -147,7 +149,13 @@ struct Refinement {
       lacking += select(magnitude(error) * counts > unit, magnitude(error), Real(0));
       return magnitude(error);
     });
-    const Real seen = select(size < last, size / last, Real(1));
+    const Real units = sum_of(Size, [&](int j) {
+      const Real error = missing[j] + (lack[j] - missing[j]) / amplifier;
+      const Real unit = epsilon * length(at[j]) + magnitude(moved[j]) / 128;
+      return magnitude(error) / (unit + tiny);
+    });
+    const Real seen = select(units < parts, units / parts, Real(1));
+    parts = units;
     contraction = select(lanes & Mask(rounds > 0), seen, contraction);
     last = size;
     for (int k = 0; k < Components; ++k)

@@ -10,8 +10,9 @@ struct RefinementInLanes : Refinement {
     constexpr double part = 1 / Refinement::amplifier;  // a power of two
     const Lanes zero = 0;
     Lanes moves[8 / width];
+    Lanes units[8 / width];
     Lanes open[8 / width];
-    for (int k = 0; k < 8 / width; ++k) moves[k] = open[k] = zero;
+    for (int k = 0; k < 8 / width; ++k) moves[k] = units[k] = open[k] = zero;
     const Lanes counts = this->times_counted();
     for (int j = 0; j < size; j += 8) {
       for (int k = 0; k < 8 / width && j + width * k < size; ++k) {
@@ -25,10 +26,11 @@ struct RefinementInLanes : Refinement {
         Lanes length = lane_abs(Lanes::at(this->at + first));
         if constexpr (Refinement::rounds_beside) length += Lanes(this->beside);
         const Lanes unit = 0x1p-52 * length + lane_abs(way) * 0x1p-7;
+        units[k] += lane_abs(error) / (unit + Refinement::tiny);
         open[k] += select(lane_abs(error) * counts > unit, lane_abs(error), zero);
       }
     }
-    this->learn_of(total_of<width>(moves));
+    this->learn_of(total_of<width>(moves), total_of<width>(units));
     if (this->goes_on(total_of<width>(open), lack)) return true;
     for (int first = 0; first < size; first += width)
       Lanes::put(point + first, Lanes::at(this->at + first));

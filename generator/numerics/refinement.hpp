@@ -10,9 +10,10 @@
 // The last round's increment is seen by nobody: the slopes are those before it.  By it they, and
 // the step, are off as much as the next round would move, the contraction times that, and what is
 // cut off is a bias: a 2^-13th of a unit.  The contraction is that of two rounds, of this step or
-// of the one before, four times over; no increment of more than a 32nd of a unit is left.  Where
-// stages are those of coordinates alone it is a 1024th: momenta, which are no unknowns then, are
-// moved by 1/h times as much.  With a 32nd gauss-4 gained 4e-4 roundings of its energy a step
+// of the one before, in units of each unknown, four times over: beside others 1e6 times as large,
+// by lengths, two at walls lost 4e-4 of a rounding a step.  No more than a 32nd of a unit is left.
+// Where stages are those of coordinates alone it is a 1024th: momenta, which are no unknowns then,
+// are moved by 1/h times as much.  With a 32nd gauss-4 gained 4e-4 roundings of its energy a step
 // between walls exp(40 (q - 1)).  (In float it is a 32nd: a difference there knows no more.)
 //
 // Note [two forms of the equations]
@@ -31,6 +32,7 @@ struct Refinement {
     return power;
   }
   static constexpr Real amplifier = find_amplifier();
+  static constexpr Real tiny = 1 / largest;  // beside a unit that is nothing
   static constexpr Real fewest = TwoForms && amplifier > 4096 ? 1024 : 32;
   static constexpr int size = Size;
   static constexpr int components = Components;
@@ -45,6 +47,7 @@ struct Refinement {
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
+  Real parts = 0;                // what the last round moved each, in its units, all together
   Real least = 0;                // of these
   Real contraction = 1;          // what a round moved of what the one before did
   int stuck = 0;                 // rounds that moved no less
@@ -132,7 +135,10 @@ struct Refinement {
       const Real unit = epsilon * length(at[j]) + magnitude(moved[j]) / 128;
       return magnitude(error[j]) * counts > unit ? magnitude(error[j]) : Real(0);
     });
-    learn_of(lengths_of(error));
+    learn_of(lengths_of(error), sum_of<Size>([&](int j) {
+               const Real unit = epsilon * length(at[j]) + magnitude(moved[j]) / 128;
+               return magnitude(error[j]) / (unit + tiny);
+             }));
     for (int k = 0; k < Components; ++k) change[k] = off(k, gradient) / amplifier;
     changes = true;
     const bool more = goes_on(open, lack);
@@ -158,8 +164,9 @@ struct Refinement {
     const Real left = 32768 * contraction;
     return left > fewest ? (left < 8192 ? left : Real(8192)) : fewest;
   }
-  void learn_of(Real length) {
-    if (rounds > 0) contraction = length < last ? length / last : Real(1);
+  void learn_of(Real length, Real units) {
+    if (rounds > 0) contraction = units < parts ? units / parts : Real(1);
+    parts = units;
     last = length;
   }
   void begin(const Real* point, const Real* lack, const Real* gradient) {
