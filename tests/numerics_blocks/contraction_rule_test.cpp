@@ -346,6 +346,8 @@ TYPED_TEST(ContractionRule, IsBelievedWhereWhatFollowsEachShowsIt) {
     return !refinement(rule, point, lack, slope);
   };
   EXPECT_TRUE(ends_at_once(0x1p-10, 0.5));
+  // What rounding took, a third of a unit, is more than four roundings of a way of a 16th.
+  EXPECT_TRUE(ends_at_once(0x1p-10, 1 - 0x1p-4));
   EXPECT_FALSE(ends_at_once(0x1p-2, 0.5)) << "more than the noise of the equations";
   EXPECT_FALSE(ends_at_once(0x1p-10, 1)) << "where it has not moved";
   EXPECT_FALSE(ends_at_once(0x1p-10, 0.5, false)) << "where nothing was foreseen";

@@ -85,6 +85,21 @@ TYPED_TEST(Refinement, WhatIsRoundedBesideALengthEndsByItsUnits) {
   }
 }
 
+// Beside an unknown that is 2^20 times as large and contracts at once.
+TYPED_TEST(Refinement, TheContractionIsThatOfPartsOfEachUnit) {
+  using Real = typename TestFixture::Number;
+  const Real third = TypeParam::unit / 3;
+  const Real large = TypeParam::two_to(20);
+  typename TypeParam::template Refined<2, 2> refinement;
+  Real point[2] = {large, 1};
+  for (bool more = true; more;) {
+    const Real by[2] = {point[0] - large, point[1] - 1};
+    const Real lack[2] = {large * third - by[0], (third - by[1]) * 7 / 8};
+    more = refinement(point, lack, by);
+  }
+  EXPECT_LE(static_cast<double>(TypeParam::absolute(refinement.change[1] - third) / third), 0x1p-9);
+}
+
 // However fast it has been: what a slower round shows counts at once.
 TYPED_TEST(Refinement, ASlowerContractionIsSeenAtOnce) {
   using Real = typename TestFixture::Number;
