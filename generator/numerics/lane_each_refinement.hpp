@@ -22,16 +22,16 @@ struct Refinement {
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
   Real begun = 0;                // the first of these
-  Real parts = 0;                // what the last round moved each, in its units, all together
   Real least = 0;                // of these
+  Real parts = 0;                // what the last round moved each, in its units, all together
   Real contraction = 1;          // what a round moved of what the one before did
   Real stuck = 0;                // rounds that moved no less
   Mask doubted = false;          // lanes where what is settled is not seen
-  Mask foreseen = false;
-  bool went_ahead = false;  // has some lane?
-  Mask open = false;        // lanes that want more
-  Mask found = true;        // lanes where the solution was at the end
-  Mask asked = false;       // lanes of which a rule wants to see two rounds more
+  Mask foreseen = false;         // the last increment, as it stands in moved, missing and at
+  bool went_ahead = false;       // has some lane?
+  Mask open = false;             // lanes that want more
+  Mask found = true;             // lanes where the solution was at the end
+  Mask asked = false;            // lanes of which a rule wants to see two rounds more
   int rounds = 0;
 
   // Before the last increment is made in lanes of which a rule is not sure: of each unknown what it

@@ -41,8 +41,8 @@ TYPED_TEST(QuietUnknowns, EachIsAskedWhatItsOwnMotionShows) {
     const Real moved[2] = {0, quiet};
     return rule.is_in_reach(moved, length, length, 2);
   };
-  // 2^14 of the bend's parts by the square of the part of the way are one rounding of its length; the
-  // first one is straight.
+  // 2^14 of the bend's parts by the square of the part of the way are one rounding of its length;
+  // the first one is straight.
   const auto rule = watched(slow, bends);
   const Real seen = slow + bends;
   const Real square = TypeParam::unit * seen * seen / (16384 * bends);
