@@ -3,7 +3,7 @@
 import json
 import re
 
-from kept_output import digits, kept, table
+from kept_output import KEPT, digits, kept, table
 
 
 def commands_table():
@@ -50,8 +50,11 @@ def dated():
 
 
 def of_readme():
-    return {"commands": f"{dated()}\n\n{commands_table()}", "split": split_table(),
-            "advice": f"{dated()}\n\n{advice_table()}"}
+    tables = {"commands": f"{dated()}\n\n{commands_table()}", "split": split_table()}
+    # That table stays, with its date, where advice was not measured here.
+    if (KEPT / "advice").exists():
+        tables["advice"] = f"{dated()}\n\n{advice_table()}"
+    return tables
 
 
 def earlier_parts():
