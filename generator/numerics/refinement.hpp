@@ -43,6 +43,7 @@ struct Refinement {
   Real at[Size] = {};            // that point
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
+  Real ways[Size] = {};          // of each, from where a step began
   Real beside = 0;               // a length that an unknown is rounded with, where it RoundsBeside
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
@@ -61,18 +62,18 @@ struct Refinement {
   Real sloped[looks_twice ? Components : 1] = {};  // the gradient with it
   bool found = true;  // was the solution at the end, or does the map not contract?
 
-  // Before the last increment is made of a rule that is not sure: of each unknown what it is, what
-  // rounding takes from it, and how far the unknown has come in the step.
+  // Before the last increment is made of a rule that is not sure: how far each unknown has come in
+  // the step, or in the one before: where it turns back, two terms of its way cancel, and what they
+  // are rounded by is seen in either of these.
   template <class Rule>
   void foresee(const Rule& rule, const Real* point, const Real* increment, const Real* from) {
     if (rule.sure || !rule.settled) return;
     for (int j = 0; j < Size; ++j) {
-      const Real next = point[j] + increment[j];
-      moved[j] = increment[j] - (next - point[j]);
-      missing[j] = magnitude(increment[j]);
-      at[j] = magnitude(point[j] - from[j]);
+      const Real now = magnitude(point[j] - from[j]);
+      at[j] = now > ways[j] ? now : ways[j];
+      ways[j] = now;
     }
-    foreseen = true;
+    follow(point, increment);
   }
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
@@ -82,15 +83,18 @@ struct Refinement {
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled) {
-      if (behind <= 0) doubted = !rule.sure && !(foreseen && is_lost_behind(lack));
+      const Real little = epsilon * epsilon * rule.round_off;
+      const bool follows = foreseen;
+      doubted = !rule.sure && !(follows && not_lost_behind(lack) <= little);
       foreseen = false;
       const bool seen = lacking(lack) > rule.round_off;
       const Real open = left(point, lack, seen ? 64 : 8);
-      const bool waits = open > epsilon * epsilon * rule.round_off;
+      const bool waits = open > little;
       const bool ends = !seen && !waits && !doubted;
       const bool goes_ahead = waits && (behind <= 0 || 2 * open < behind);
       behind = goes_ahead ? open : 0;
       if (goes_ahead) {
+        if (follows) follow(point, lack);
         for (int j = 0; j < Size; ++j) point[j] += lack[j];
         return true;
       }
@@ -146,15 +150,30 @@ struct Refinement {
     return more;
   }
 
-  // Is what follows each increment, and that again in the same ratio?  Some roundings of its way
-  // are those of the equations.
-  bool is_lost_behind(const Real* lack) const {
+  // Begins anew.
+  void forget() {
+    rounds = 0;
+    contraction = 1;
+    for (Real& each : ways) each = 0;
+  }
+  // Of an increment that is made next: what it is, and what rounding takes from it.
+  void follow(const Real* point, const Real* increment) {
+    for (int j = 0; j < Size; ++j) {
+      const Real next = point[j] + increment[j];
+      moved[j] = increment[j] - (next - point[j]);
+      missing[j] = magnitude(increment[j]);
+    }
+    foreseen = true;
+  }
+  // Of what follows the increments, where it counts, and that again in the same ratio.  Some
+  // roundings of its way are those of the equations.
+  Real not_lost_behind(const Real* lack) const {
     return sum_of<Size>([&](int j) {
-             const Real round_off = epsilon * at[j];
-             const Real follows = magnitude(lack[j] - moved[j]);
-             const Real next = follows * (follows / missing[j]);
-             return follows > 4 * round_off && next * 16384 > round_off ? follows : Real(0);
-           }) <= 0;
+      const Real round_off = epsilon * at[j];
+      const Real follows = magnitude(lack[j] - moved[j]);
+      const Real next = follows * (follows / missing[j]);
+      return follows > 4 * round_off && next * 16384 > round_off ? follows : Real(0);
+    });
   }
   void forget_changes() {
     changes = false;

@@ -88,9 +88,7 @@ class RunWriter : public IterationWriter {
     if (type == "bool") return set(object(place), word("false"));
     if (type == "int") return set(object(place), integer(0));
     if (!type.starts_with("Refine")) return set(object(place), list({}));
-    Place rounds = place;
-    rounds.field += rounds.field.empty() ? "rounds" : ".rounds";
-    set(at(rounds), integer(0));
+    add(Do{action(type, place, "forget")});
   }
 };
 
