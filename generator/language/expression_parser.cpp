@@ -151,6 +151,9 @@ void ExpressionParser::missing_operator() const {
       fail({before.span.begin, after.span.end}, fmt::format("malformed number '{}{}'", left, right),
            "an exponent is an integer, as in 2.5e3");
     }
+    if (after.kind == TokenKind::name && is_symbol(peek(1), "="))
+      fail(after.span, "expected an operator or the end of the line",
+           fmt::format("one formula a line: '{} = ...' begins a line of its own", right));
     fail({before.span.begin, after.span.end},
          fmt::format("missing operator between '{}' and '{}'", left, right),
          group ? "write '*' between them" : fmt::format("write {}*{}{}", left, right, open));
