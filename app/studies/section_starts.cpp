@@ -80,7 +80,11 @@ class Region {
       const std::array<double, 4> found = connected();
       const bool wider = across.fit(reaches_x_, found[1] - found[0]);
       const bool higher = up.fit(reaches_y_, found[3] - found[2]);
-      if ((!wider && !higher) || is_stopped(request_.stop)) return found;
+      if (is_stopped(request_.stop)) return found;
+      if (wider || higher) continue;
+      const bool ends_across = across.ends(reaches_x_);
+      const bool ends_up = up.ends(reaches_y_);
+      return ends_across && ends_up ? found : connected();
     }
   }
 
@@ -110,6 +114,13 @@ class Region {
         *length /= 2;
         return true;
       }
+      return false;
+    }
+    // Where the region has no end what was looked at first of it is enough: as far from the scene's
+    // start as it may be it has nothing to do with that.
+    bool ends(bool is_reached) {
+      if (!is_reached || doublings == 0) return true;
+      *length = std::ldexp(*length, -doublings);
       return false;
     }
   };

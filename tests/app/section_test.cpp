@@ -77,6 +77,28 @@ TEST(Section, GivesTheLastMomentumTheEnergy) {
 }
 
 // The momentum's term is not p^2/2 and couples to the other one.
+// Below the barrier orbits of a pendulum swing, within their angle; beyond it they turn round, and
+// the angle has no end: no more than 1 from the scene's start is taken of it.
+TEST(Section, StartsNearTheSceneWhereTheRegionHasNoEnd) {
+  const auto orbit = interpreted_orbit(
+      "system turning\ncoordinate x, y\nmomentum u, v\nH = (u^2 + v^2 + x^2)/2 - cos(y)\n"
+      "invariant surface = x\ninvariant axis_1 = y\ninvariant axis_2 = v\n"
+      "scene start { u = 0.4 }\n",
+      "gauss-4", "0.1");
+  app::SectionRequest request = request_of(*orbit);
+  request.direction = runtime::Direction::both;
+  request.orbits = 16;
+  request.points = 1;
+  for (const auto& [energy, farthest] : {std::pair(0.0, std::acos(-1.0) / 2), {1.5, 1.0}}) {
+    request.energy = energy;
+    double reached = 0;
+    for (const app::SectionOrbit& each : app::section(request).orbits)
+      reached = std::max(reached, std::abs(each.first));
+    EXPECT_LE(reached, farthest + 1e-12) << energy;
+    EXPECT_GT(reached, 0.8 * farthest) << energy;
+  }
+}
+
 TEST(Section, FindsAMomentumThatIsCoupled) {
   const auto orbit = interpreted_orbit(
       "system coupled\ncoordinate x, y\nmomentum u, v\n"
