@@ -195,6 +195,8 @@ int run_orbit(const ChaosOptions& options, const Loaded& loaded, int frequencies
   if (frequencies > 0 && found.status == runtime::Status::done)
     degrees =
         orbit_frequencies(loaded.library.library, start, steps, frequencies, &interrupt_flag());
+  // Time goes on, and its momentum has the frequencies of the rest.
+  if (!degrees.empty() && loaded.setting.model.coordinates.back().is_time) degrees.pop_back();
   const ChaosTitle title = title_of(loaded);
   write_chaos_files(options,
                     {.people = chaos_text(found, title) + frequencies_text(degrees, title),

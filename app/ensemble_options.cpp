@@ -182,7 +182,8 @@ void add_ensemble_options(CLI::App& parser, EnsembleOptions& options) {
                   "size, and number or time of steps; default: the scene's")
       ->type_name("T");
   parser.add_option("-o,--output", options.output, "")->type_name("FILE");
-  parser.add_flag("--resume", options.resume, "results: .csv, .h5; go on with what is missing");
+  parser.add_flag("--resume", options.resume,
+                  "results, needed: .csv, .h5; go on with what is missing");
   parser.add_option("--threads", options.threads, "")->type_name("N");
   parser.add_flag("--json", options.json, "");
   parser.add_flag("--quiet", options.quiet,

@@ -45,7 +45,7 @@ constexpr long kMostRowTimes = 10'000'000;
 Rational position_of(const std::string& option, const Rational& time, const SceneValues& scene) {
   const Rational position = time / *scene.h;
   if (position >= 0 && position <= Rational(*scene.steps)) return position;
-  throw UsageError(fmt::format("{}: the run goes from t = 0 to t = {:.10g}{}", option,
+  throw UsageError(fmt::format("{}: the run goes from 0 to {:.10g} after its start{}", option,
                                to_double(*scene.h * Rational(*scene.steps)),
                                position < 0 ? "" : "\nhelp: more steps, --steps N"));
 }

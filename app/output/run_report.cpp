@@ -55,6 +55,12 @@ std::string numbers(const RunReport& report, const std::vector<Variable>& variab
   return count > largest ? text + ", ..." : text;
 }
 
+// The time since the start, by its name beside the state's, with its value.
+std::string clock(const RunReport& report, double time, int digits = 10) {
+  return fmt::format("{} = {:.{}g}", time_column(element_names(report.plugin->model.coordinates)),
+                     time, digits);
+}
+
 bool has_ended(const RunReport& report) {
   return report.watch != nullptr && report.watch->ending().has_value();
 }
@@ -71,7 +77,7 @@ std::string last_state_text(const RunReport& report) {
   const double t = last_time(report);
   const std::string q = numbers(report, model.coordinates, 0);
   const std::string p = numbers(report, model.momenta, report.state.size() / 2);
-  return fmt::format("t = {:.10g}: {}{}{}", t, q, q.empty() || p.empty() ? "" : ", ", p);
+  return fmt::format("{}: {}{}{}", clock(report, t), q, q.empty() || p.empty() ? "" : ", ", p);
 }
 
 std::string seconds_text(double seconds) {
@@ -193,9 +199,9 @@ std::string ending_text(const RunReport& report) {
   const auto& [event, point] = *report.watch->ending();
   const EndCondition& what = (*report.events)[event].what;
   if (what.holds)
-    return fmt::format("{} holds at t = {:.10g}, after step {}", what.event.text, point.time,
+    return fmt::format("{} holds at {}, after step {}", what.event.text, clock(report, point.time),
                        point.steps);
-  return fmt::format("{}: at t = {:.16g}, in step {}", what.event.text, point.time,
+  return fmt::format("{}: at {}, in step {}", what.event.text, clock(report, point.time, 16),
                      point.steps + (point.fraction > 0.0 ? 1 : 0));
 }
 
@@ -218,10 +224,10 @@ std::vector<std::string> event_texts(const RunReport& report) {
       texts.push_back(fmt::format("{}: never; after each step it was between {:.6g} and {:.6g}",
                                   event.name, seen.least, seen.largest));
     else if (seen.count == 1)
-      texts.push_back(fmt::format("{}: once, at t = {:.16g}", event.name, seen.first));
+      texts.push_back(fmt::format("{}: once, at {}", event.name, clock(report, seen.first, 16)));
     else
-      texts.push_back(fmt::format("{}: {} times, from t = {:.16g} to t = {:.16g}", event.name,
-                                  seen.count, seen.first, seen.last));
+      texts.push_back(fmt::format("{}: {} times, from {} to {}", event.name, seen.count,
+                                  clock(report, seen.first, 16), clock(report, seen.last, 16)));
   }
   return texts;
 }
@@ -271,14 +277,15 @@ std::string failure_text(const RunReport& report) {
   const long long step = summary.steps_done + 1;
   const std::string increment =
       summary.last_increment ? fmt::format("{:.3g}", *summary.last_increment) : "not finite";
-  const std::string where = fmt::format("at t = {:.10g}, h = {}", t, number_text(h));
+  const std::string where = fmt::format("at {}, h = {}", clock(report, t), number_text(h));
   switch (summary.status) {
     case runtime::Status::done:
     case runtime::Status::undefined:  // a run begins where there are values
       return "";
     case runtime::Status::out_of_time:
-      return fmt::format("out of time: {:.6g} s were over after {} of {} steps, at t = {:.10g}",
-                         report.seconds.value_or(0.0), summary.steps_done, *report.scene->steps, t);
+      return fmt::format("out of time: {:.6g} s were over after {} of {} steps, at {}",
+                         report.seconds.value_or(0.0), summary.steps_done, *report.scene->steps,
+                         clock(report, t));
     case runtime::Status::jumped:
       return fmt::format(
           "step {} jumped: {}; the energy error after it, {:.3g}, is more than ten times {:.3g}, "
@@ -304,8 +311,8 @@ std::string failure_text(const RunReport& report) {
           "equations have no solution at this h",
           step, where, increment);
     case runtime::Status::stopped:
-      return fmt::format("stopped after {} of {} steps, at t = {:.10g}", summary.steps_done,
-                         *report.scene->steps, t);
+      return fmt::format("stopped after {} of {} steps, at {}", summary.steps_done,
+                         *report.scene->steps, clock(report, t));
   }
   return "";
 }

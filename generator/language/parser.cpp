@@ -261,6 +261,9 @@ class Parser {
     result.values = result.is_list ? value_list(in_) : std::vector<NodePtr>{in_.expression()};
     result.value_span = {begin, in_.previous().span.end};
     if (in_.peek().kind == TokenKind::unit) result.declarator.unit = in_.next().text;
+    if (is_symbol(in_.peek(), ",") && in_.peek(1).kind == TokenKind::name)
+      in_.fail(in_.peek().span, "expected an operator or the end of the line, found ','",
+               fmt::format("one parameter a line: parameter {} = ...", in_.peek(1).text));
     if (!result.is_list) in_.expect_operator_or_end();
     result.comment = end();
     syntax_.parameters.push_back(std::move(result));

@@ -157,6 +157,13 @@ TEST(Chaos, FrequenciesOfALongOrbitAreThoseOfAShortOne) {
   EXPECT_NEAR(std::abs(frequency), 2 * std::numbers::pi / period, 1e-6);
 }
 
+// A driven oscillator has those of q; t goes on.
+TEST(Chaos, TimeHasNoFrequencies) {
+  const auto json = chaos_of("driven_oscillator.ham", {"--steps", "2000", "--frequencies", "1"});
+  ASSERT_EQ(json["frequencies"].size(), 1U);
+  EXPECT_TRUE(json["frequencies"].contains("q"));
+}
+
 TEST(Chaos, AMapOfOneTimeIsThatWhateverTheStep) {
   const Scratch scratch;
   const std::string model = scratch.write("m.ham",

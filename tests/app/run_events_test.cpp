@@ -32,6 +32,15 @@ TEST(RunEvents, SayWhatElapsedOfASystemThatHasATime) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_TRUE(contains(read(scratch.path("e.csv")), "\nevent,elapsed,steps,fraction,q,t,p,p_t\n"))
       << read(scratch.path("e.csv"));
+  for (const auto& [words, ending] : {std::pair<std::vector<std::string>, const char*>(
+                                          {"--events", scratch.path("e.csv")}, "elapsed = 2: q"),
+                                      {{"--until", "t - 4"}, "elapsed = 1: q"}}) {
+    std::vector<std::string> all = {"run", model, "--interpret"};
+    all.insert(all.end(), words.begin(), words.end());
+    const std::string said = hamgen(all).err;
+    EXPECT_TRUE(contains(said, "at elapsed = 1") || contains(said, "at elapsed = 0.99999")) << said;
+    EXPECT_TRUE(contains(said, ending)) << said;
+  }
   const Result starts =
       hamgen({"ensemble", model, "--over", "q=1:2:2", "--quiet", "-o", scratch.path("ends.csv")});
   ASSERT_EQ(starts.status, 0) << starts.err;
