@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <type_traits>
+#include <vector>
 
 #include "tests/numerics_blocks/lane_rules.hpp"
 
@@ -191,6 +192,90 @@ TEST(LaneRefinement, SmallUnknownsAreForeseenInEachLaneAsAlone) {
   const int settled = expect_small_unknowns_end_alike(1 << 20, 4000, true);
   EXPECT_GE(settled, 2);
   EXPECT_LE(settled, 6);
+}
+// Steps in which each lane moves or turns back, is sure or not, and has a second unknown that is
+// nothing beside the first or something: what its ways were is known to each as alone.
+TEST(LaneRefinement, EachLaneKnowsItsWaysAsAlone) {
+  constexpr double kUnit = 0x1p-52;
+  const auto moves = [](int lane, int step) { return (lane * 5 + step * 3) % 4 != 0; };
+  const auto is_sure = [](int lane, int step) { return (lane + 3 * step) % 5 == 0; };
+  const auto small = [](int lane) { return lane % 2 == 0 ? kUnit : kUnit * kUnit * kUnit; };
+  lanes::ContractionRule<1> rule;
+  lanes::Refinement<2, 2> together;
+  std::vector<of_double::ContractionRule<1>> others(kCount);
+  std::vector<of_double::Refinement<2, 2>> alone(kCount);
+  int settled = 0;
+  int doubted = 0;
+  for (int step = 0; step < 12; ++step) {
+    lanes::Real x[2] = {1, 0}, from[2] = {1, 0}, increment[2] = {16 * kUnit, 0};
+    lanes::Real lack[2] = {kUnit / 3, 0}, sure = 0;
+    const lanes::Real slope[2] = {0, 0};
+    // A third of a unit is missing of the first, three eighths of its way of the second one.
+    for (int lane = 0; lane < kCount; ++lane) {
+      x[1].set(lane, small(lane));
+      from[0].set(lane, moves(lane, step) ? 0.5 : 1);
+      from[1].set(lane, small(lane) / 2);
+      increment[1].set(lane, small(lane) * 16 * kUnit);
+      lack[1].set(lane, small(lane) * (lane % 3 == 0 ? 6 : 2) * kUnit);
+      sure.set(lane, is_sure(lane, step) ? 1 : 0);
+    }
+    const lanes::Turn turn = turn_of_all();
+    rule.contraction = 0x1p-20;
+    rule.round_off = kUnit;
+    rule.settled = true;
+    rule.sure = sure > 0;
+    const lanes::Real begun[2] = {x[0], x[1]};
+    together.foresee(rule, x, increment, from);
+    for (int j = 0; j < 2; ++j) x[j] += increment[j];
+    (void)together(turn, rule, x, lack, slope);
+    together.rounds = 0;
+    for (int lane = 0; lane < kCount; ++lane) {
+      of_double::ContractionRule<1>& other = others[lane];
+      other.contraction = 0x1p-20;
+      other.round_off = kUnit;
+      other.settled = true;
+      other.sure = is_sure(lane, step);
+      double y[2], start[2], by[2], lacks[2];
+      for (int j = 0; j < 2; ++j) {
+        y[j] = begun[j][lane];
+        start[j] = from[j][lane];
+        by[j] = increment[j][lane];
+        lacks[j] = lack[j][lane];
+      }
+      const double slopes[2] = {0, 0};
+      alone[lane].foresee(other, y, by, start);
+      for (int j = 0; j < 2; ++j) y[j] += by[j];
+      (void)alone[lane](other, y, lacks, slopes);
+      alone[lane].rounds = 0;
+      EXPECT_EQ(rule.settled[lane], other.settled) << lane << " in step " << step;
+      for (int j = 0; j < 2; ++j)
+        EXPECT_EQ(together.ways[j][lane], alone[lane].ways[j]) << lane << " in step " << step;
+      (other.settled ? settled : doubted) += 1;
+    }
+  }
+  EXPECT_GT(settled, 30);
+  EXPECT_GT(doubted, 20);
+}
+// Lanes at their end, where what follows a long increment is lost, wait for those that go ahead,
+// and are not looked at as if they had gone, too.
+TEST(LaneRefinement, WhatHasEndedIsNotDoubtedWhileOthersGoAhead) {
+  constexpr double kUnit = 0x1p-52;
+  lanes::ContractionRule<1> rule;
+  lanes::Refinement<1, 1> together;
+  lanes::Real x[1] = {1}, increment[1] = {0x1p24 * kUnit}, lack[1] = {6 * kUnit};
+  const lanes::Real from[1] = {0}, slope[1] = {0};
+  for (int lane = 0; lane < kCount; lane += 2) lack[0].set(lane, 32 * kUnit);
+  rule.contraction = 0x1p-20;
+  rule.round_off = 100 * kUnit;
+  rule.settled = true;
+  rule.sure = false;
+  together.foresee(rule, x, increment, from);
+  x[0] += increment[0];
+  const lanes::Turn turn = turn_of_all();
+  EXPECT_TRUE(together(turn, rule, x, lack, slope));
+  for (int lane = 0; lane < kCount; lane += 2) lack[0].set(lane, 0);
+  (void)together(turn, rule, x, lack, slope);
+  for (int lane = 0; lane < kCount; ++lane) EXPECT_TRUE(rule.settled[lane]) << lane;
 }
 // What they lack is seen of all together, too, and more than 8 of their roundings.
 TEST(LaneRefinement, UnknownsThatAreSeenEndInEachLaneAsAlone) {
