@@ -23,6 +23,7 @@
 #include "generator/formats/all_formats.hpp"
 #include "generator/verify/model_text.hpp"
 #include "runtime/atomic_file.hpp"
+#include "runtime/sha256.hpp"
 
 namespace hamgen::app {
 namespace {
@@ -181,6 +182,13 @@ void write_certificate(const VerifyOptions& options, const Setting& setting,
     throw ProofError(fmt::format("--certificate: '{}' is {}", property,
                                  found == proof.end() ? "not looked at" : to_text(found->verdict)));
   }
+  // As the checker asks: the proof says nothing of what is remarked.
+  const std::string digest = "//   sha256    " + runtime::sha256_hex(setting.source.text);
+  if (header.text.find("\n" + digest + "\n") == std::string::npos)
+    throw ProofError(fmt::format(
+        "--certificate: {} has not the digest of {} in its first lines: it was made from another "
+        "text\nhelp: make it anew, hamgen generate, and certify that",
+        header.path, setting.source.path));
   const ProofCertificate certificate = certificate_of(setting.source, setting.request, proof);
   std::map<std::string, long> sizes;
   for (const Size& size : setting.model.sizes) sizes[size.name] = size.value;

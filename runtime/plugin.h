@@ -102,7 +102,8 @@ struct hamgen_plugin {
   const struct hamgen_quantity* invariant_list;
   /* The parameters as the model declares them: parameter_count values. */
   void (*default_parameters)(double* parameters, double* parameters_lo);
-  /* Time since t = 0 of `create`, or since what set_state said. */
+  /* Time since t = 0 of `create`, or since what set_state said; a time of the model's own begins
+   * where its state does. */
   double (*get_time)(const struct hamgen_run* run, double* t_lo);
   double (*get_h)(const struct hamgen_run* run, double* h_lo);
   void (*get_parameters)(const struct hamgen_run* run, double* parameters, double* parameters_lo);

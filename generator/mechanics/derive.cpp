@@ -186,6 +186,16 @@ Mechanics derived(const Model& model, bool keep_sums, int most) {
   return mechanics;
 }
 
+// Of what is computed beside H, in one sum or product: a compiler takes half a minute for as many
+// terms.
+constexpr std::size_t kLongestObserved = 30'000;
+
+std::size_t longest_list(const Expression& e) {
+  std::size_t longest = e.operands().size();
+  for (const Expression& each : e.operands()) longest = std::max(longest, longest_list(each));
+  return longest;
+}
+
 }  // namespace
 
 Mechanics derive(const Model& model, bool keep_sums, int most) {
@@ -199,6 +209,14 @@ Mechanics derive(const Model& model, bool keep_sums, int most) {
     const Expression value = with_place(model, invariant.value->span, [&] {
       return from_ginac(converter.convert(invariant.value), table);
     });
+    if (longest_list(value) > kLongestObserved)
+      throw ModelError({{.severity = Severity::error,
+                         .span = invariant.value->span,
+                         .message = fmt::format("a sum of more than {} terms is written out here",
+                                                kLongestObserved),
+                         .help = "sums of H stay loops, others do not; a run with --observe energy "
+                                 "needs none"}},
+                       model.source);
     mechanics.invariants.push_back({invariant.name, value, invariant.only_observed,
                                     invariant.comment, invariant.rising, invariant.falling});
   }

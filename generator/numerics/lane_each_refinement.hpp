@@ -29,23 +29,27 @@ struct Refinement {
   Real stuck = 0;                // rounds that moved no less
   Mask doubted = false;          // lanes where what is settled is not seen
   Mask foreseen = false;         // the last increment, as it stands in moved, missing and at
+  bool went_ahead = false;       // has some lane?
   Mask open = false;             // lanes that want more
   Mask found = true;             // lanes where the solution was at the end
   Mask asked = false;            // lanes of which a rule wants to see two rounds more
   int rounds = 0;
 
-  // Before the last increment is made in lanes of which a rule is not sure: how far each unknown
-  // has come in the step, or in the one before.
+  // Before the last increment is made in lanes of which a rule is not sure: of each unknown what it
+  // is, what rounding takes from it, and how far the unknown has come in the step, or in the one
+  // before.
   template <class Rule>
   void foresee(const Rule& rule, const Real* point, const Real* increment, const Real* from) {
     foreseen = rule.settled & !rule.sure;
     if (!any(foreseen)) return;
     for (int j = 0; j < Size; ++j) {
       const Real now = magnitude(point[j] - from[j]);
+      const Real next = point[j] + increment[j];
+      moved[j] = select(foreseen, increment[j] - (next - point[j]), moved[j]);
+      missing[j] = select(foreseen, magnitude(increment[j]), missing[j]);
       at[j] = select(foreseen, select(now > ways[j], now, ways[j]), at[j]);
       ways[j] = select(foreseen, now, ways[j]);
     }
-    follow(foreseen, point, increment);
   }
   // Begins anew.
   void forget() {
@@ -63,8 +67,9 @@ struct Refinement {
     if (rounds == 0) {
       asked = rule.rounds_asked();
       rule.settled = turn.lanes & rule.settled;
-      doubt(rule, lack);
-      if (goes_ahead(rule, point, lack)) return true;
+      if (!went_ahead) doubt(rule, lack);
+      went_ahead = goes_ahead(rule, point, lack);
+      if (went_ahead) return true;
       begin(turn.lanes, point, lack, gradient);
       open = open & !rule.settled;
     }
@@ -85,15 +90,7 @@ struct Refinement {
   }
 
  private:
-  // Of an increment that is made next: what it is, and what rounding takes from it.
-  void follow(const Mask& lanes, const Real* point, const Real* increment) {
-    for (int j = 0; j < Size; ++j) {
-      const Real next = point[j] + increment[j];
-      moved[j] = select(lanes, increment[j] - (next - point[j]), moved[j]);
-      missing[j] = select(lanes, magnitude(increment[j]), missing[j]);
-    }
-  }
-  // What is settled, by what is seen.
+  // What is settled, by what is seen, before any lane has gone ahead.
   template <class Rule>
   void doubt(const Rule& rule, const Real* lack) {
     doubted = rule.settled & !rule.sure;
@@ -106,6 +103,7 @@ struct Refinement {
     });
     const Mask lost = seen <= epsilon * epsilon * rule.round_off;
     doubted = doubted & !(foreseen & lost);
+    foreseen = false;
   }
   // As long as some small unknowns have not come to their end, all of that lane go on.
   template <class Rule>
@@ -117,7 +115,6 @@ struct Refinement {
     rule.settled = rule.settled & (goes | !(waits | seen | doubted));
     behind = select(goes, left, Real(0));
     if (!any(goes)) return false;
-    follow(foreseen & goes, point, lack);
     for (int j = 0; j < Size; ++j) point[j] = select(goes, point[j] + lack[j], point[j]);
     return true;
   }

@@ -145,8 +145,9 @@ TEST(Times, ChangeNothingOfTheOrbit) {
 
 TEST(Times, AreThoseOfTheRun) {
   for (const auto& [options, words] :
-       {std::pair<std::vector<std::string>, std::string>{{"--at", "11"}, "from t = 0 to t = 10"},
-        {{"--at", "-1"}, "from t = 0 to t = 10"},
+       {std::pair<std::vector<std::string>, std::string>{{"--at", "11"},
+                                                         "from 0 to 10 after its start"},
+        {{"--at", "-1"}, "from 0 to 10 after its start"},
         {{"--at", "x"}, "unknown name 'x'"},
         {{"--every-time", "0"}, "beyond 0"},
         {{"--every-time", "1e-9"}, "more than 10000000 rows"},

@@ -125,5 +125,25 @@ TEST(Derivation, CountsTheTermsOfNestedRanges) {
   EXPECT_EQ(said_of("p^2/2 + sum(a = 1..100, b = 1..100, q^2/(a + b))"), "");
 }
 
+// In loops H may have any number of elements; what is observed beside it has each of its terms.
+TEST(Derive, RefusesASumBesideHThatNoCompilerWouldTake) {
+  const auto derived = [](int elements) {
+    return derive(
+        read_model(make_source("m.ham", "size N = " + std::to_string(elements) +
+                                            "\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+                                            "H = sum(i=1..N, p[i]^2/2 + q[i]^4)\n"
+                                            "invariant P = 3*(1 + sum(i=1..N, p[i]*q[i]))\n")),
+        true, 24);
+  };
+  EXPECT_EQ(derived(3000).invariants.size(), 1U);
+  try {
+    (void)derived(30001);
+    ADD_FAILURE();
+  } catch (const ModelError& error) {
+    EXPECT_NE(std::string(error.what()).find("more than 30000 terms"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("m.ham:5:"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace hamgen

@@ -149,17 +149,21 @@ void get_parameters(const hamgen_run* run, double* parameters, double* parameter
   give_parameters(run->propagator.parameters(), parameters, parameters_lo);
 }
 
+// The propagator's time is none behind its start, or the state's own.
+void set_time(hamgen_run* run, Real t) { run->start_time = t - run->propagator.time(); }
+
 void set_state(hamgen_run* run, double t, double t_lo, const double* state,
                const double* state_lo) {
-  run->start_time = static_cast<Real>(t) + static_cast<Real>(t_lo);
   run->propagator.reset(read_state(state, state_lo));
+  set_time(run, static_cast<Real>(t) + static_cast<Real>(t_lo));
 }
 
 void go_on_with(hamgen_run* run, const Parameters& par, Real h) {
-  run->start_time = time_of(run);
+  const Real t = time_of(run);
   const State z = run->propagator.state();
   run->propagator.~Propagator();
   new (hamgen_place{&run->propagator}) Propagator(par, h, z);
+  set_time(run, t);
 }
 
 void set_h(hamgen_run* run, double h, double h_lo) {
