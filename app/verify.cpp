@@ -127,6 +127,7 @@ Setting verify_setting(const VerifyOptions& options) {
 }
 
 constexpr const char* kCommandLead = "//   command   ";
+constexpr const char* kDigestLead = "//   sha256    ";
 
 // The word behind `option` in the command that the header says it was made with.
 std::string option_of_header(const std::string& text, const std::string& option) {
@@ -183,7 +184,7 @@ void write_certificate(const VerifyOptions& options, const Setting& setting,
                                  found == proof.end() ? "not looked at" : to_text(found->verdict)));
   }
   // As the checker asks: the proof says nothing of what is remarked.
-  const std::string digest = "//   sha256    " + runtime::sha256_hex(setting.source.text);
+  const std::string digest = kDigestLead + runtime::sha256_hex(setting.source.text);
   if (header.text.find("\n" + digest + "\n") == std::string::npos)
     throw ProofError(fmt::format(
         "--certificate: {} has not the digest of {} in its first lines: it was made from another "

@@ -143,11 +143,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_d16304a7::float64 {
+namespace hamgen_6aa962ca::float64 {
 using Real = double;
 
-#ifndef HAMGEN_D16304A7_FLOAT64_STEP_REPORT
-#define HAMGEN_D16304A7_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_6AA962CA_FLOAT64_STEP_REPORT
+#define HAMGEN_6AA962CA_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -157,15 +157,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_VOCABULARY
-#define HAMGEN_D16304A7_FLOAT64_VOCABULARY
+#ifndef HAMGEN_6AA962CA_FLOAT64_VOCABULARY
+#define HAMGEN_6AA962CA_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_TWO_SUM
-#define HAMGEN_D16304A7_FLOAT64_TWO_SUM
+#ifndef HAMGEN_6AA962CA_FLOAT64_TWO_SUM
+#define HAMGEN_6AA962CA_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -175,8 +175,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_SUM_WITH_REST
-#define HAMGEN_D16304A7_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_6AA962CA_FLOAT64_SUM_WITH_REST
+#define HAMGEN_6AA962CA_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -188,8 +188,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_SUMS
-#define HAMGEN_D16304A7_FLOAT64_SUMS
+#ifndef HAMGEN_6AA962CA_FLOAT64_SUMS
+#define HAMGEN_6AA962CA_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -240,8 +240,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_BAND_MATRIX
-#define HAMGEN_D16304A7_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_6AA962CA_FLOAT64_BAND_MATRIX
+#define HAMGEN_6AA962CA_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -306,8 +306,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_D16304A7_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_6AA962CA_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_6AA962CA_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -372,14 +372,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_VERDICT
-#define HAMGEN_D16304A7_FLOAT64_VERDICT
+#ifndef HAMGEN_6AA962CA_FLOAT64_VERDICT
+#define HAMGEN_6AA962CA_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_NEWTON_RULE
-#define HAMGEN_D16304A7_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_6AA962CA_FLOAT64_NEWTON_RULE
+#define HAMGEN_6AA962CA_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -552,8 +552,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_D16304A7_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_6AA962CA_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_6AA962CA_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -823,8 +823,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_D16304A7_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_6AA962CA_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_6AA962CA_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -847,8 +847,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_D16304A7_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_6AA962CA_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_6AA962CA_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
@@ -976,8 +976,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_D16304A7_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_6AA962CA_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_6AA962CA_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -1123,8 +1123,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_REFINEMENT
-#define HAMGEN_D16304A7_FLOAT64_REFINEMENT
+#ifndef HAMGEN_6AA962CA_FLOAT64_REFINEMENT
+#define HAMGEN_6AA962CA_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1211,9 +1211,9 @@ struct Refinement {
   // Where that is_slow then the solution has not been found: it is left to the solver behind.
   // Unknowns that are small beside the others count for nothing in a rule's sums: as long as some
   // of them have not come to their end, or are too far from it for a difference, all go on.  What
-  // was doubted then is so still: of the point that such increments end at nothing follows, for
-  // rounding has chosen it (ContractionRule).  A pendulum beside what is 1e8 times as loud lost
-  // 7e-3 roundings a step without.
+  // was doubted then is so still: what follows comes within four roundings of a way there, however
+  // slowly an unknown contracts, and that says nothing of what is left behind.  A pendulum beside
+  // what is 1e8 times as loud lost 7e-3 roundings a step without.
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled) {
@@ -1387,8 +1387,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_HISTORY
-#define HAMGEN_D16304A7_FLOAT64_HISTORY
+#ifndef HAMGEN_6AA962CA_FLOAT64_HISTORY
+#define HAMGEN_6AA962CA_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1489,8 +1489,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_D16304A7_FLOAT64_FORGET
-#define HAMGEN_D16304A7_FLOAT64_FORGET
+#ifndef HAMGEN_6AA962CA_FLOAT64_FORGET
+#define HAMGEN_6AA962CA_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1500,17 +1500,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_d16304a7::float64
+}  // namespace hamgen_6aa962ca::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x6d663ad7
+#define HAMGEN_METHOD_fput_implicit_midpoint 0x865a12d5
 namespace fput::implicit_midpoint {
-inline namespace emitted_6d663ad7 {
+inline namespace emitted_865a12d5 {
 
-namespace numerics = ::hamgen_d16304a7::float64;
+namespace numerics = ::hamgen_6aa962ca::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1856,9 +1856,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_6d663ad7
+}  // namespace emitted_865a12d5
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x6d663ad7
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x865a12d5
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -116,8 +116,8 @@ class Region {
       }
       return false;
     }
-    // Where the region has no end what was looked at first of it is enough: as far from the scene's
-    // start as it may be it has nothing to do with that.
+    // Where the region has no end, half of it is far from the scene's start: what was looked at
+    // first is kept of it.
     bool ends(bool is_reached) {
       if (!is_reached || doublings == 0) return true;
       *length = std::ldexp(*length, -doublings);

@@ -84,9 +84,9 @@ struct Refinement {
   // Where that is_slow then the solution has not been found: it is left to the solver behind.
   // Unknowns that are small beside the others count for nothing in a rule's sums: as long as some
   // of them have not come to their end, or are too far from it for a difference, all go on.  What
-  // was doubted then is so still: of the point that such increments end at nothing follows, for
-  // rounding has chosen it (ContractionRule).  A pendulum beside what is 1e8 times as loud lost
-  // 7e-3 roundings a step without.
+  // was doubted then is so still: what follows comes within four roundings of a way there, however
+  // slowly an unknown contracts, and that says nothing of what is left behind.  A pendulum beside
+  // what is 1e8 times as loud lost 7e-3 roundings a step without.
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
     if (rule.settled) {

@@ -150,24 +150,6 @@ TEST(EarlyRefusal, OfWritingOverWhatIsRead) {
   EXPECT_EQ(read(header), text);
 }
 
-// What is remarked of a model is the same mathematics, and another file: a checker would refuse it.
-TEST(Certificates, AreOfTheFileThatTheHeaderWasMadeFrom) {
-  const Scratch scratch;
-  const std::string model = scratch.write("m.ham", kModel);
-  const std::string header = scratch.path("m.hpp");
-  const std::string certificate = scratch.path("c.json");
-  ASSERT_EQ(hamgen({"generate", model, "-o", header, "--quiet"}).status, 0);
-  const std::vector<std::string> words = {"verify",        model,       "--emitted", header,
-                                          "--certificate", certificate, "--quiet"};
-  EXPECT_EQ(hamgen(words).status, 0);
-  EXPECT_TRUE(std::filesystem::remove(certificate));
-  (void)scratch.write("m.ham", kModel + std::string("# a remark\n"));
-  const Result refused = hamgen(words);
-  EXPECT_EQ(refused.status, 5);
-  EXPECT_NE(refused.err.find("has not the digest of"), std::string::npos) << refused.err;
-  EXPECT_FALSE(std::filesystem::exists(certificate));
-}
-
 // A number that is in the code follows nobody; it is the scene's where the code is made for that.
 TEST(EarlyRefusal, OfAFoldedParameterThatIsVaried) {
   const Scratch scratch;

@@ -290,5 +290,24 @@ TEST(Verify, AndRunWatchTheSameModifiedHamiltonian) {
                        "const State& z)"));
 }
 
+// What is remarked of a model is the same mathematics, and another file: a checker would refuse it.
+TEST(Verify, CertifiesTheFileThatTheHeaderWasMadeFromAlone) {
+  const Scratch scratch;
+  const std::string text = "system m\ncoordinate q\nmomentum p\nH = p^2/2 + q^4\n";
+  const std::string model = scratch.write("m.ham", text);
+  const std::string header = scratch.path("m.hpp");
+  const std::string certificate = scratch.path("c.json");
+  ASSERT_EQ(hamgen({"generate", model, "-o", header, "--quiet"}).status, 0);
+  const std::vector<std::string> words = {"verify",        model,       "--emitted", header,
+                                          "--certificate", certificate, "--quiet"};
+  EXPECT_EQ(hamgen(words).status, 0);
+  EXPECT_TRUE(std::filesystem::remove(certificate));
+  (void)scratch.write("m.ham", text + "# a remark\n");
+  const Result refused = hamgen(words);
+  EXPECT_EQ(refused.status, 5);
+  EXPECT_NE(refused.err.find("has not the digest of"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(certificate));
+}
+
 }  // namespace
 }  // namespace hamgen::app_test

@@ -87,7 +87,8 @@ TYPED_TEST(LastIncrement, KnowsTheRoundingOfATurnFromTheStepBefore) {
 }
 
 // An unknown of a part of the others' rounding is not told from its end by what the rounding of
-// their rounding is; of one that goes ahead the doubt stays, for rounding has chosen where it ends.
+// their rounding is; of one that goes ahead the doubt stays: within some roundings of its way what
+// follows shows no contraction.
 TYPED_TEST(LastIncrement, BelievesWhatFollowsBehindTheLastIncrementOfAll) {
   using Real = typename TypeParam::Scalar;
   const Real unit = TypeParam::unit;
@@ -116,6 +117,26 @@ TYPED_TEST(LastIncrement, BelievesWhatFollowsBehindTheLastIncrementOfAll) {
   EXPECT_LT(evaluations_with(unit, 0x1p-4), -3) << "what went ahead has come to its end";
   EXPECT_LT(evaluations_with(unit, 0.75), -1) << "what went ahead is far from its end";
   EXPECT_EQ(evaluations_with(unit * unit * unit, 0x1p-4), 1) << "that is nothing beside the other";
+}
+
+// What follows a long increment is lost with the next one, and yet more than rounding: it goes
+// ahead, and ends there, for there was no doubt.
+TYPED_TEST(LastIncrement, GoesAheadWithoutADoubtWhereNoneWas) {
+  using Real = typename TypeParam::Scalar;
+  auto rule = this->settled();
+  rule.round_off = 1024 * TypeParam::unit;
+  typename TypeParam::template Refined<1, 1> refinement;
+  Real point[1] = {1};
+  const Real start[1] = {0};
+  const Real increment[1] = {-(1 << 21) * TypeParam::unit};
+  refinement.foresee(rule, point, increment, start);
+  point[0] += increment[0];
+  const Real slope[1] = {0};
+  Real lack[1] = {10 * TypeParam::unit};
+  EXPECT_TRUE(refinement(rule, point, lack, slope));
+  lack[0] = 0;
+  EXPECT_FALSE(refinement(rule, point, lack, slope));
+  EXPECT_TRUE(rule.settled);
 }
 
 // Beside a large unknown a small one counts for nothing in the sums: where it has not come to its
