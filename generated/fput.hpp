@@ -143,11 +143,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_6aa962ca::float64 {
+namespace hamgen_bb5861c5::float64 {
 using Real = double;
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_STEP_REPORT
-#define HAMGEN_6AA962CA_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
+#define HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -157,15 +157,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_VOCABULARY
-#define HAMGEN_6AA962CA_FLOAT64_VOCABULARY
+#ifndef HAMGEN_BB5861C5_FLOAT64_VOCABULARY
+#define HAMGEN_BB5861C5_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_TWO_SUM
-#define HAMGEN_6AA962CA_FLOAT64_TWO_SUM
+#ifndef HAMGEN_BB5861C5_FLOAT64_TWO_SUM
+#define HAMGEN_BB5861C5_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -175,8 +175,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_SUM_WITH_REST
-#define HAMGEN_6AA962CA_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
+#define HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -188,8 +188,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_SUMS
-#define HAMGEN_6AA962CA_FLOAT64_SUMS
+#ifndef HAMGEN_BB5861C5_FLOAT64_SUMS
+#define HAMGEN_BB5861C5_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -240,8 +240,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_BAND_MATRIX
-#define HAMGEN_6AA962CA_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_BB5861C5_FLOAT64_BAND_MATRIX
+#define HAMGEN_BB5861C5_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -306,8 +306,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_6AA962CA_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_BB5861C5_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_BB5861C5_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -372,14 +372,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_VERDICT
-#define HAMGEN_6AA962CA_FLOAT64_VERDICT
+#ifndef HAMGEN_BB5861C5_FLOAT64_VERDICT
+#define HAMGEN_BB5861C5_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_NEWTON_RULE
-#define HAMGEN_6AA962CA_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE
+#define HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -552,8 +552,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_6AA962CA_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -823,8 +823,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_6AA962CA_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_BB5861C5_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_BB5861C5_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -847,8 +847,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_6AA962CA_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_BB5861C5_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_BB5861C5_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
@@ -976,8 +976,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_6AA962CA_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_BB5861C5_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_BB5861C5_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -1123,8 +1123,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_REFINEMENT
-#define HAMGEN_6AA962CA_FLOAT64_REFINEMENT
+#ifndef HAMGEN_BB5861C5_FLOAT64_REFINEMENT
+#define HAMGEN_BB5861C5_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1150,6 +1150,15 @@ struct ContractionRule {
 // float it is a 128th, the same way at every step: the energy of an oscillator at h omega = 130
 // grew by 4e-2 units a step.  There the second form is looked at where the first one was, too.
 //
+// Note [what is left behind]
+// What a rule leaves of an unknown in every step, a 2^-14th of the rounding of its way, adds up to
+// less than its walk at random.  What follows an increment shows how it shrinks, but no nearer than
+// some roundings of its way, and behind those a pendulum, which left a hundredth of itself beside
+// what was louder and shrank to a 1e4th, lost 2e-3 roundings a step.  So it is asked what a round
+// of refinement leaves of each error, in every 48th step at least.  Its way is the longest of late:
+// where an unknown turns back its energy is what it was.  One that grows has little of an energy
+// yet: a 256th of what it has gained may be left, as ahead of a wave.
+//
 template <int Size, int Components, bool RoundsBeside = false, bool TwoForms = false>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
@@ -1171,6 +1180,9 @@ struct Refinement {
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
   Real ways[Size] = {};          // of each, from where a step began
+  Real longest[Size] = {};       // of these
+  Real spans[Size] = {};         // lengths of each, the largest of late
+  Real shrinks[Size] = {};       // what a round leaves of each error, in the mean of some
   Real beside = 0;               // a length that an unknown is rounded with, where it RoundsBeside
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
@@ -1180,11 +1192,13 @@ struct Refinement {
   Real contraction = 1;          // what a round moved of what the one before did
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
-  int asked = 0;  // rounds that a rule wants to see behind the first
+  int asked = 0;    // rounds that a rule wants to see behind the first
+  int untold = 48;  // steps since rounds have told how errors shrink
   bool changes = false;
   bool foreseen = false;  // the last increment, as it stands in moved, missing and at
   bool doubted = false;   // what a rule has settled, by what was seen
   bool looks = false;     // at what the other form lacks there
+  bool asks = false;      // how errors shrink?
   Real lacked[looks_twice ? Size : 1] = {};
   Real sloped[looks_twice ? Components : 1] = {};  // the gradient with it
   bool found = true;  // was the solution at the end, or does the map not contract?
@@ -1211,14 +1225,16 @@ struct Refinement {
   // Where that is_slow then the solution has not been found: it is left to the solver behind.
   // Unknowns that are small beside the others count for nothing in a rule's sums: as long as some
   // of them have not come to their end, or are too far from it for a difference, all go on.  What
-  // was doubted then is so still: what follows comes within four roundings of a way there, however
-  // slowly an unknown contracts, and that says nothing of what is left behind.  A pendulum beside
-  // what is 1e8 times as loud lost 7e-3 roundings a step without.
+  // was doubted then is so still, for nothing is seen of what is left behind that.
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
+    if (rounds == 0 && behind <= 0 && untold < 48) ++untold;
     if (rule.settled) {
       const Real little = epsilon * epsilon * rule.round_off;
-      if (behind <= 0) doubted = !rule.sure && !(foreseen && not_lost_behind(lack) <= little);
+      if (behind <= 0) {
+        doubted =
+            !rule.sure && !(foreseen && not_lost_behind(lack) <= little && knows_how_they_shrink());
+      }
       foreseen = false;
       const bool seen = lacking(lack) > rule.round_off;
       const Real open = left(point, lack, seen ? 64 : 8);
@@ -1237,10 +1253,12 @@ struct Refinement {
         if (changes) forget_changes();
         return false;
       }
+      asks = true;
     }
     rule.settled = false;
     const int count = rounds;
     if (count == 0) asked = rule.rounds_asked();
+    if (count == 1 && (asks || untold >= 16)) learn_how_they_shrink(lack);
     const bool more = (*this)(point, lack, gradient);
     if (count > 0 && begun > 0) rule.learn_of_rounds(count, last / begun, 8 / amplifier);
     if (!more || !rule.is_slow()) return more;
@@ -1286,17 +1304,42 @@ struct Refinement {
   void forget() {
     rounds = 0;
     contraction = 1;
-    for (Real& each : ways) each = 0;
+    untold = 48;
+    for (int j = 0; j < Size; ++j) ways[j] = longest[j] = spans[j] = shrinks[j] = 0;
   }
-  // Of what follows the increments, where it counts, and that again in the same ratio.  Some
-  // roundings of its way are those of the equations.
-  Real not_lost_behind(const Real* lack) const {
+  // Of the increments, where what is left behind counts: what follows is seen from some roundings
+  // of a way on, which are those of the equations, and that again in the same ratio is left; or as
+  // much as errors shrink.  See Note [what is left behind].
+  Real not_lost_behind(const Real* lack) {
     return sum_of<Size>([&](int j) {
-      const Real round_off = epsilon * at[j];
       const Real follows = magnitude(lack[j] - moved[j]);
-      const Real next = follows * (follows / missing[j]);
-      return follows > 4 * round_off && next * 16384 > round_off ? follows : Real(0);
+      const Real before = longest[j] * (Real(1023) / 1024);
+      const Real gained = ways[j] > before ? ways[j] - before : Real(0);
+      longest[j] = before + gained;
+      const Real may_leave = epsilon * (longest[j] / 16384 + gained / 256);
+      const bool is_seen = follows > 4 * epsilon * at[j];
+      const bool counts = (is_seen && follows * (follows / missing[j]) > may_leave) ||
+                          shrinks[j] * shrinks[j] * missing[j] > 4 * may_leave;
+      return counts ? (follows > missing[j] ? follows : missing[j]) : Real(0);
     });
+  }
+  // A single one is told by the rule itself.
+  bool knows_how_they_shrink() const { return Size == 1 || untold < 48; }
+  // By the first round behind the rounded point, of the errors that this leaves: a rough pattern,
+  // which shrinks less than a smooth one.
+  void learn_how_they_shrink(const Real* lack) {
+    for (int j = 0; j < Size; ++j) {
+      const Real now = length(at[j]);
+      const Real before = spans[j] * (Real(255) / 256);
+      spans[j] = now > before ? now : before;
+      const Real unit = epsilon * spans[j] / 4;
+      const Real lacks = magnitude(missing[j]);
+      const Real seen = magnitude(error_of(j, lack)) / ((lacks > unit ? lacks : unit) + tiny);
+      const Real left = seen < 1 ? seen : Real(1);
+      shrinks[j] = shrinks[j] > 0 ? (3 * shrinks[j] + left) / 4 : left;
+    }
+    untold = 0;
+    asks = false;
   }
   void forget_changes() {
     changes = false;
@@ -1387,8 +1430,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_HISTORY
-#define HAMGEN_6AA962CA_FLOAT64_HISTORY
+#ifndef HAMGEN_BB5861C5_FLOAT64_HISTORY
+#define HAMGEN_BB5861C5_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1489,8 +1532,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_6AA962CA_FLOAT64_FORGET
-#define HAMGEN_6AA962CA_FLOAT64_FORGET
+#ifndef HAMGEN_BB5861C5_FLOAT64_FORGET
+#define HAMGEN_BB5861C5_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1500,17 +1543,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_6aa962ca::float64
+}  // namespace hamgen_bb5861c5::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0x865a12d5
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xc9f7a5d8
 namespace fput::implicit_midpoint {
-inline namespace emitted_865a12d5 {
+inline namespace emitted_c9f7a5d8 {
 
-namespace numerics = ::hamgen_6aa962ca::float64;
+namespace numerics = ::hamgen_bb5861c5::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1856,9 +1899,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_865a12d5
+}  // namespace emitted_c9f7a5d8
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0x865a12d5
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xc9f7a5d8
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -19,6 +19,9 @@ struct Refinement {
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
   Real ways[Size] = {};          // of each, from where a step began
+  Real longest[Size] = {};       // of these
+  Real spans[Size] = {};         // lengths of each, the largest of late
+  Real shrinks[Size] = {};       // what a round leaves of each error, in the mean of some
   Real beside = 0;               // a length that an unknown is rounded with, where it RoundsBeside
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
@@ -27,11 +30,13 @@ struct Refinement {
   Real parts = 0;                // what the last round moved each, in its units, all together
   Real contraction = 1;          // what a round moved of what the one before did
   Real stuck = 0;                // rounds that moved no less
+  Real untold = 48;              // steps since rounds have told how errors shrink
   Mask doubted = false;          // lanes where what is settled is not seen
   Mask foreseen = false;         // the last increment, as it stands in moved, missing and at
   bool went_ahead = false;       // has some lane?
   Mask open = false;             // lanes that want more
   Mask found = true;             // lanes where the solution was at the end
+  Mask asks = false;             // lanes where it is asked how errors shrink
   Mask asked = false;            // lanes of which a rule wants to see two rounds more
   int rounds = 0;
 
@@ -55,7 +60,8 @@ struct Refinement {
   void forget() {
     rounds = 0;
     contraction = 1;
-    for (Real& each : ways) each = 0;
+    untold = 48;
+    for (int j = 0; j < Size; ++j) ways[j] = longest[j] = spans[j] = shrinks[j] = 0;
   }
   // Where a rule has settled that nothing of it counts, and nothing is seen of it either, the
   // slopes are taken as they are; what else it finds of the contraction the rule gets to know.
@@ -67,13 +73,17 @@ struct Refinement {
     if (rounds == 0) {
       asked = rule.rounds_asked();
       rule.settled = turn.lanes & rule.settled;
-      if (!went_ahead) doubt(rule, lack);
+      if (!went_ahead) {
+        untold = select(turn.lanes & (untold < 48), untold + 1, untold);
+        doubt(rule, lack);
+      }
       went_ahead = goes_ahead(rule, point, lack);
       if (went_ahead) return true;
       begin(turn.lanes, point, lack, gradient);
       open = open & !rule.settled;
     }
     const Mask looked = open;
+    if (count == 1) learn_how_they_shrink(open & (asks | (untold >= 16)), lack);
     round(lack, gradient);
     if (count > 0)
       rule.learn_of_rounds(looked & (begun > 0), count, last / begun, Real(8 / amplifier));
@@ -95,15 +105,41 @@ struct Refinement {
   void doubt(const Rule& rule, const Real* lack) {
     doubted = rule.settled & !rule.sure;
     if (!any(doubted)) return;
-    const Real seen = sum_of(Size, [&](int j) {
-      const Real round_off = epsilon * at[j];
+    const Mask looks = foreseen & doubted;
+    const Real left = sum_of(Size, [&](int j) {
       const Real follows = magnitude(lack[j] - moved[j]);
-      const Real next = follows * (follows / missing[j]);
-      return select((follows > 4 * round_off) & (next * 16384 > round_off), follows, Real(0));
+      const Real before = longest[j] * (Real(1023) / 1024);
+      const Real gained = select(ways[j] > before, ways[j] - before, Real(0));
+      const Real now = before + gained;
+      longest[j] = select(looks, now, longest[j]);
+      const Real may_leave = epsilon * (now / 16384 + gained / 256);
+      const Mask is_seen = follows > 4 * epsilon * at[j];
+      const Mask counts = (is_seen & (follows * (follows / missing[j]) > may_leave)) |
+                          (shrinks[j] * shrinks[j] * missing[j] > 4 * may_leave);
+      return select(counts, select(follows > missing[j], follows, missing[j]), Real(0));
     });
-    const Mask lost = seen <= epsilon * epsilon * rule.round_off;
+    const Mask lost =
+        (left <= epsilon * epsilon * rule.round_off) & (Size == 1 ? Mask(true) : untold < 48);
     doubted = doubted & !(foreseen & lost);
     foreseen = false;
+  }
+  void learn_how_they_shrink(const Mask& lanes, const Real* lack) {
+    if (!any(lanes)) return;
+    for (int j = 0; j < Size; ++j) {
+      const Real now = length(at[j]);
+      const Real before = spans[j] * (Real(255) / 256);
+      const Real span = select(now > before, now, before);
+      spans[j] = select(lanes, span, spans[j]);
+      const Real unit = epsilon * span / 4;
+      const Real lacks = magnitude(missing[j]);
+      const Real error = magnitude(missing[j] + (lack[j] - missing[j]) / amplifier);
+      const Real seen = error / (select(lacks > unit, lacks, unit) + tiny);
+      const Real part = select(seen < 1, seen, Real(1));
+      const Real mean = select(shrinks[j] > 0, (3 * shrinks[j] + part) / 4, part);
+      shrinks[j] = select(lanes, mean, shrinks[j]);
+    }
+    untold = select(lanes, Real(0), untold);
+    asks = asks & !lanes;
   }
   // As long as some small unknowns have not come to their end, all of that lane go on.
   template <class Rule>
@@ -112,7 +148,9 @@ struct Refinement {
     const Real left = left_of(point, lack, select(seen, Real(64), Real(8)));
     const Mask waits = rule.settled & (left > epsilon * epsilon * rule.round_off);
     const Mask goes = waits & ((behind <= 0) | (2 * left < behind));
-    rule.settled = rule.settled & (goes | !(waits | seen | doubted));
+    const Mask stays = goes | !(waits | seen | doubted);
+    asks = asks | (rule.settled & !stays);
+    rule.settled = rule.settled & stays;
     behind = select(goes, left, Real(0));
     if (!any(goes)) return false;
     for (int j = 0; j < Size; ++j) point[j] = select(goes, point[j] + lack[j], point[j]);

@@ -23,6 +23,15 @@
 // float it is a 128th, the same way at every step: the energy of an oscillator at h omega = 130
 // grew by 4e-2 units a step.  There the second form is looked at where the first one was, too.
 //
+// Note [what is left behind]
+// What a rule leaves of an unknown in every step, a 2^-14th of the rounding of its way, adds up to
+// less than its walk at random.  What follows an increment shows how it shrinks, but no nearer than
+// some roundings of its way, and behind those a pendulum, which left a hundredth of itself beside
+// what was louder and shrank to a 1e4th, lost 2e-3 roundings a step.  So it is asked what a round
+// of refinement leaves of each error, in every 48th step at least.  Its way is the longest of late:
+// where an unknown turns back its energy is what it was.  One that grows has little of an energy
+// yet: a 256th of what it has gained may be left, as ahead of a wave.
+//
 template <int Size, int Components, bool RoundsBeside = false, bool TwoForms = false>
 struct Refinement {
   // A power of two near the third root of 1/epsilon.
@@ -44,6 +53,9 @@ struct Refinement {
   Real missing[Size] = {};       // by the equations there
   Real moved[Size] = {};         // the solution less the point
   Real ways[Size] = {};          // of each, from where a step began
+  Real longest[Size] = {};       // of these
+  Real spans[Size] = {};         // lengths of each, the largest of late
+  Real shrinks[Size] = {};       // what a round leaves of each error, in the mean of some
   Real beside = 0;               // a length that an unknown is rounded with, where it RoundsBeside
   Real behind = 0;               // what small unknowns lacked when the point moved on for them
   Real last = 0;                 // what the last round moved all together
@@ -53,11 +65,13 @@ struct Refinement {
   Real contraction = 1;          // what a round moved of what the one before did
   int stuck = 0;                 // rounds that moved no less
   int rounds = 0;
-  int asked = 0;  // rounds that a rule wants to see behind the first
+  int asked = 0;    // rounds that a rule wants to see behind the first
+  int untold = 48;  // steps since rounds have told how errors shrink
   bool changes = false;
   bool foreseen = false;  // the last increment, as it stands in moved, missing and at
   bool doubted = false;   // what a rule has settled, by what was seen
   bool looks = false;     // at what the other form lacks there
+  bool asks = false;      // how errors shrink?
   Real lacked[looks_twice ? Size : 1] = {};
   Real sloped[looks_twice ? Components : 1] = {};  // the gradient with it
   bool found = true;  // was the solution at the end, or does the map not contract?
@@ -84,14 +98,16 @@ struct Refinement {
   // Where that is_slow then the solution has not been found: it is left to the solver behind.
   // Unknowns that are small beside the others count for nothing in a rule's sums: as long as some
   // of them have not come to their end, or are too far from it for a difference, all go on.  What
-  // was doubted then is so still: what follows comes within four roundings of a way there, however
-  // slowly an unknown contracts, and that says nothing of what is left behind.  A pendulum beside
-  // what is 1e8 times as loud lost 7e-3 roundings a step without.
+  // was doubted then is so still, for nothing is seen of what is left behind that.
   template <class Rule>
   bool operator()(Rule& rule, Real* point, const Real* lack, const Real* gradient) {
+    if (rounds == 0 && behind <= 0 && untold < 48) ++untold;
     if (rule.settled) {
       const Real little = epsilon * epsilon * rule.round_off;
-      if (behind <= 0) doubted = !rule.sure && !(foreseen && not_lost_behind(lack) <= little);
+      if (behind <= 0) {
+        doubted =
+            !rule.sure && !(foreseen && not_lost_behind(lack) <= little && knows_how_they_shrink());
+      }
       foreseen = false;
       const bool seen = lacking(lack) > rule.round_off;
       const Real open = left(point, lack, seen ? 64 : 8);
@@ -110,10 +126,12 @@ struct Refinement {
         if (changes) forget_changes();
         return false;
       }
+      asks = true;
     }
     rule.settled = false;
     const int count = rounds;
     if (count == 0) asked = rule.rounds_asked();
+    if (count == 1 && (asks || untold >= 16)) learn_how_they_shrink(lack);
     const bool more = (*this)(point, lack, gradient);
     if (count > 0 && begun > 0) rule.learn_of_rounds(count, last / begun, 8 / amplifier);
     if (!more || !rule.is_slow()) return more;
@@ -159,17 +177,42 @@ struct Refinement {
   void forget() {
     rounds = 0;
     contraction = 1;
-    for (Real& each : ways) each = 0;
+    untold = 48;
+    for (int j = 0; j < Size; ++j) ways[j] = longest[j] = spans[j] = shrinks[j] = 0;
   }
-  // Of what follows the increments, where it counts, and that again in the same ratio.  Some
-  // roundings of its way are those of the equations.
-  Real not_lost_behind(const Real* lack) const {
+  // Of the increments, where what is left behind counts: what follows is seen from some roundings
+  // of a way on, which are those of the equations, and that again in the same ratio is left; or as
+  // much as errors shrink.  See Note [what is left behind].
+  Real not_lost_behind(const Real* lack) {
     return sum_of<Size>([&](int j) {
-      const Real round_off = epsilon * at[j];
       const Real follows = magnitude(lack[j] - moved[j]);
-      const Real next = follows * (follows / missing[j]);
-      return follows > 4 * round_off && next * 16384 > round_off ? follows : Real(0);
+      const Real before = longest[j] * (Real(1023) / 1024);
+      const Real gained = ways[j] > before ? ways[j] - before : Real(0);
+      longest[j] = before + gained;
+      const Real may_leave = epsilon * (longest[j] / 16384 + gained / 256);
+      const bool is_seen = follows > 4 * epsilon * at[j];
+      const bool counts = (is_seen && follows * (follows / missing[j]) > may_leave) ||
+                          shrinks[j] * shrinks[j] * missing[j] > 4 * may_leave;
+      return counts ? (follows > missing[j] ? follows : missing[j]) : Real(0);
     });
+  }
+  // A single one is told by the rule itself.
+  bool knows_how_they_shrink() const { return Size == 1 || untold < 48; }
+  // By the first round behind the rounded point, of the errors that this leaves: a rough pattern,
+  // which shrinks less than a smooth one.
+  void learn_how_they_shrink(const Real* lack) {
+    for (int j = 0; j < Size; ++j) {
+      const Real now = length(at[j]);
+      const Real before = spans[j] * (Real(255) / 256);
+      spans[j] = now > before ? now : before;
+      const Real unit = epsilon * spans[j] / 4;
+      const Real lacks = magnitude(missing[j]);
+      const Real seen = magnitude(error_of(j, lack)) / ((lacks > unit ? lacks : unit) + tiny);
+      const Real left = seen < 1 ? seen : Real(1);
+      shrinks[j] = shrinks[j] > 0 ? (3 * shrinks[j] + left) / 4 : left;
+    }
+    untold = 0;
+    asks = false;
   }
   void forget_changes() {
     changes = false;

@@ -157,5 +157,64 @@ TEST(WallDrift, IsNoneOfAFixedPointInLoopsThatLooksAtWhatFollows) {
   EXPECT_GT(errors_of(30, 2, fixed_point, {{"&& !waits && !doubted", "&& !waits"}}), 1e-13);
 }
 
+// A pendulum beside oscillators that do not move it: those are louder, and shrink to a 1e4th with
+// each increment, the pendulum to a hundredth.
+constexpr const char* kBesideOthers =
+    "system beside\nsize N = 30\ncoordinate q[1..N]\nmomentum p[1..N]\n"
+    "H = sum(i=1..N, p[i]^2/2) + sum(i=1..N-1, q[i]*q[i+1]/10^40)"
+    " + sum(i=1..29, q[i]^2/200) + sum(i=30..30, 1 - cos(q[i]))\n";
+// What steps leave of its energy, each beside one solved in quad, in roundings.
+constexpr const char* kPendulumSteps = R"(
+#include <cstdio>
+
+#include <quadmath.h>
+
+using Quad = __float128;
+
+int main() {
+  const double h = 0.2;
+  double sum = 0;
+  for (int start = 0; start < 12; ++start) {
+    beside::State z;
+    unsigned seed = start + 1;
+    for (double& p : z.p) p = 100.0 * ((seed = seed * 1664525u + 1013904223u) >> 8) / (1 << 24);
+    z.p[29] = 1 + start * 0.001;
+    const double first = z.p[29] * z.p[29] / 2;
+    beside::Propagator run(beside::Parameters{}, h, z);
+    for (int step = 0; step < 10000; ++step) {
+      const Quad q = Quad(run.state().q[29]) + run.carry().q[29];
+      const Quad p = Quad(run.state().p[29]) + run.carry().p[29];
+      if (!run.step().converged) return 1;
+      Quad q_bar = q;
+      Quad p_bar = p;
+      for (int k = 0; k < 16; ++k) {
+        p_bar = p - Quad(h) / 2 * sinq(q_bar);
+        q_bar = q + Quad(h) / 2 * p_bar;
+      }
+      const Quad q_next = 2 * q_bar - q;
+      const Quad p_next = 2 * p_bar - p;
+      const Quad off_q = Quad(run.state().q[29]) + run.carry().q[29] - q_next;
+      const Quad off_p = Quad(run.state().p[29]) + run.carry().p[29] - p_next;
+      sum += double(off_q * sinq(q_next) + off_p * p_next) / (first * 0x1p-52);
+    }
+  }
+  std::printf("%g", sum / (12 * 10000));
+}
+)";
+
+// The walk leaves 1e-4 roundings a step in the mean of these.
+TEST(WallDrift, IsNoneOfWhatShrinksLessThanOthersBesideIt) {
+  const Request fixed_point{.solver = "fixed-point"};
+  const std::string known = "shrinks[j] * shrinks[j] * missing[j] > 4 * may_leave";
+  const auto mean = [&](const std::string& line) {
+    std::string header = emitted_header(kBesideOthers, fixed_point, "double", "beside");
+    header = with_line(std::move(header), known, line);
+    return std::stod(output_of_program({{"beside.hpp", std::move(header)}}, kPendulumSteps,
+                                       {"-O1", "-std=gnu++20", "-lquadmath"}));
+  };
+  EXPECT_LT(std::abs(mean(known)), 5e-4);
+  EXPECT_LT(mean("false"), -1e-3);
+}
+
 }  // namespace
 }  // namespace hamgen::drift

@@ -133,6 +133,7 @@ int expect_small_unknowns_end_alike(double large, int units, bool foresees = fal
   rule.round_off = large * 0x1p-52;
   rule.settled = true;
   rule.sure = !foresees;
+  together.untold = 0;
   // They turn back in a step that is behind another: what that knows of their ways is used.
   const auto ahead = [&](lanes::Real from) {
     const lanes::Real lack[2] = {0, (b - 1) * (x[1] - 1)};
@@ -159,6 +160,7 @@ int expect_small_unknowns_end_alike(double large, int units, bool foresees = fal
     other.round_off = large * 0x1p-52;
     other.settled = lane != 4;
     other.sure = !foresees;
+    alone.untold = 0;
     const auto alone_ahead = [&](double from) {
       const double lack[2] = {0, (contractions[lane] - 1) * (y[1] - 1)};
       const double start[2] = {0, from};
@@ -204,6 +206,8 @@ TEST(LaneRefinement, EachLaneKnowsItsWaysAsAlone) {
   lanes::Refinement<2, 2> together;
   std::vector<of_double::ContractionRule<1>> others(kCount);
   std::vector<of_double::Refinement<2, 2>> alone(kCount);
+  together.untold = 0;
+  for (auto& each : alone) each.untold = 0;
   int settled = 0;
   int doubted = 0;
   for (int step = 0; step < 12; ++step) {
@@ -269,6 +273,7 @@ TEST(LaneRefinement, WhatHasEndedIsNotDoubtedWhileOthersGoAhead) {
   rule.round_off = 100 * kUnit;
   rule.settled = true;
   rule.sure = false;
+  together.untold = 0;
   together.foresee(rule, x, increment, from);
   x[0] += increment[0];
   const lanes::Turn turn = turn_of_all();

@@ -1,5 +1,6 @@
 // What Refinement sees behind the last increment that a rule has settled.
 #include <cmath>
+#include <utility>
 
 #include "tests/numerics_blocks/every_scalar.hpp"
 
@@ -41,6 +42,7 @@ TYPED_TEST(LastIncrement, IsBelievedWhereWhatFollowsEachShowsIt) {
     auto rule = this->settled();
     rule.round_off = large * TypeParam::unit;
     typename TypeParam::template Refined<2, 2> refinement;
+    refinement.untold = 0;
     Real point[2] = {1, large};
     const Real start[2] = {Real(from), large / 2};
     Real increment[2] = {16 * TypeParam::unit + third, large * (16 * TypeParam::unit + third)};
@@ -65,6 +67,7 @@ TYPED_TEST(LastIncrement, KnowsTheRoundingOfATurnFromTheStepBefore) {
   auto rule = this->settled();
   typename TypeParam::template Refined<1, 1> refinement;
   const auto ends_at_once = [&](double from) {
+    refinement.untold = 0;
     this->settle(rule);
     Real point[1] = {1};
     const Real start[1] = {Real(from)};
@@ -95,6 +98,7 @@ TYPED_TEST(LastIncrement, BelievesWhatFollowsBehindTheLastIncrementOfAll) {
   const auto evaluations_with = [&](Real small, double contraction) {
     auto rule = this->settled();
     typename TypeParam::template Refined<2, 2> refinement;
+    refinement.untold = 0;
     Real point[2] = {1, small * (1 + 4096 * unit)};
     const Real start[2] = {Real(0.5), small / 2};
     const auto lacks = [&](Real* lack) {
@@ -126,6 +130,7 @@ TYPED_TEST(LastIncrement, GoesAheadWithoutADoubtWhereNoneWas) {
   auto rule = this->settled();
   rule.round_off = 1024 * TypeParam::unit;
   typename TypeParam::template Refined<1, 1> refinement;
+  refinement.untold = 0;
   Real point[1] = {1};
   const Real start[1] = {0};
   const Real increment[1] = {-(1 << 21) * TypeParam::unit};
@@ -137,6 +142,77 @@ TYPED_TEST(LastIncrement, GoesAheadWithoutADoubtWhereNoneWas) {
   lack[0] = 0;
   EXPECT_FALSE(refinement(rule, point, lack, slope));
   EXPECT_TRUE(rule.settled);
+}
+
+// What an increment of 16 units leaves behind what is seen, of a way of a half, is known by how
+// errors shrink; an unknown that grows may leave more, and in every 48th step it is asked again.
+TYPED_TEST(LastIncrement, IsBelievedAsErrorsShrinkWhereTheyAreNotSeen) {
+  using Real = typename TypeParam::Scalar;
+  auto rule = this->settled();
+  typename TypeParam::template Refined<2, 2> refinement;
+  refinement.untold = 0;
+  const auto ends_at_once = [&](double shrinks) {
+    rule.unchecked = 0;
+    this->settle(rule);
+    refinement.shrinks[0] = Real(shrinks);
+    Real point[2] = {1, 0};
+    const Real start[2] = {Real(0.5), 0};
+    const Real increment[2] = {16 * TypeParam::unit, 0};
+    refinement.foresee(rule, point, increment, start);
+    point[0] += increment[0];
+    const Real slope[2] = {0, 0};
+    const Real lack[2] = {Real(shrinks) * increment[0], 0};
+    const bool more = refinement(rule, point, lack, slope);
+    refinement.rounds = 0;
+    return !more;
+  };
+  EXPECT_TRUE(ends_at_once(0x1p-6)) << "its way has been gained in this step";
+  EXPECT_FALSE(ends_at_once(0x1p-6)) << "less than some roundings of its way, and it counts";
+  EXPECT_FALSE(ends_at_once(0x1p-8));
+  for (int step = 4; step < 48; ++step) EXPECT_TRUE(ends_at_once(0x1p-9)) << step;
+  EXPECT_FALSE(ends_at_once(0x1p-9)) << "it is long ago that rounds told it";
+  refinement.untold = 0;
+  EXPECT_TRUE(ends_at_once(0x1p-9));
+  refinement.forget();
+  EXPECT_EQ(refinement.shrinks[0], 0);
+  EXPECT_FALSE(ends_at_once(0x1p-9));
+}
+
+// x = 1 + c (x - 1), and beside it y = c (x - 1 + y), which comes from 1 to nearly nothing: its
+// errors are not those of so little.
+TYPED_TEST(LastIncrement, KnowsHowErrorsShrinkByRounds) {
+  using Real = typename TypeParam::Scalar;
+  typename TypeParam::template Refined<2, 2> refinement;
+  const auto refine = [&](double contraction, double small, bool doubted = false,
+                          double share = 0) {
+    auto rule = this->settled();
+    rule.settled = doubted;
+    Real point[2] = {1 + 4 * TypeParam::unit, Real(small)};
+    point[1] += Real(share) * (point[0] - 1);
+    for (bool more = true; more;) {
+      const Real error = point[0] - 1;
+      const Real beside = point[1] - Real(small);
+      const Real lack[2] = {Real(contraction) * error - error,
+                            Real(contraction) * (error + beside) - beside};
+      const Real slope[2] = {0, 0};
+      more = refinement(rule, point, lack, slope);
+    }
+    return refinement.untold == 0;
+  };
+  EXPECT_TRUE(refine(0x1p-6, 1));
+  EXPECT_NEAR(double(refinement.shrinks[0]), 0x1p-6, 0x1p-10);
+  EXPECT_FALSE(refine(0x1p-8, 1)) << "it has been told, and is not asked for";
+  EXPECT_TRUE(refine(0x1p-8, 1, true));
+  EXPECT_NEAR(double(refinement.shrinks[0]), (3 * 0x1p-6 + 0x1p-8) / 4, 0x1p-10);
+  for (int step = 1; step < 32 * 16; ++step) {
+    EXPECT_EQ(refine(0x1p-8, 0x1p-20), step % 16 == 0) << step;
+  }
+  EXPECT_NEAR(double(refinement.shrinks[0]), 0x1p-8, 0x1p-11);
+  EXPECT_LT(double(refinement.shrinks[1]), 0x1p-3);
+  typename TypeParam::template Refined<2, 2> anew;
+  std::swap(refinement, anew);
+  EXPECT_TRUE(refine(0x1p-6, 0x1p-20, false, 0x1p-6));
+  EXPECT_EQ(refinement.shrinks[1], 1) << "no more than all";
 }
 
 // Beside a large unknown a small one counts for nothing in the sums: where it has not come to its
