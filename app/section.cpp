@@ -15,6 +15,7 @@
 #include "app/output/section_output.hpp"
 #include "app/output/terminal.hpp"
 #include "app/output/trajectory_plot.hpp"
+#include "app/studies/angles.hpp"
 #include "app/studies/initial_data.hpp"
 #include "app/studies/load_integrator.hpp"
 #include "app/studies/natural_sizes.hpp"
@@ -76,14 +77,18 @@ struct Geometry {
   std::string first, second;       // the axes
 };
 
+// Has the right side of the surface one value?
+bool is_constant(const Geometry& g) {
+  return std::ranges::none_of(
+      g.names, [&](const std::string& name) { return g.right.find(name) != std::string::npos; });
+}
+
 // A picture of a section has two directions.
 void require_plane(const SectionOptions& options, const Geometry& g) {
   if (g.first == g.second)
     throw UsageError(fmt::format("--axes {}: both are {}", options.axes, g.first));
-  const bool is_plane = std::ranges::none_of(
-      g.names, [&](const std::string& name) { return g.right.find(name) != std::string::npos; });
   for (const std::string& axis : {g.first, g.second}) {
-    if (axis == g.left && is_plane)
+    if (axis == g.left && is_constant(g))
       throw UsageError(fmt::format("--axes {}: {} is {} on the surface everywhere", options.axes,
                                    axis, g.right));
   }
@@ -231,6 +236,24 @@ void write_files(const SectionOptions& options, const Section& section, const Se
                options.quiet, &interrupt_flag());
 }
 
+// Of a name that is a coordinate: is it an angle?
+std::function<bool(const std::string&)> angles_of(const SectionRequest& request,
+                                                  const std::vector<std::string>& names) {
+  return [&names,
+          are = angles(*request.library, request.start, request.sizes)](const std::string& name) {
+    const auto it = std::ranges::find(names, name);
+    const auto place = static_cast<std::size_t>(it - names.begin());
+    return place < are.size() && are[place];
+  };
+}
+
+std::vector<std::string> angle_axes(const SectionRequest& request, const Geometry& g) {
+  std::vector<std::string> names;
+  if (request.first_turns) names.push_back(g.first);
+  if (request.second_turns) names.push_back(g.second);
+  return names;
+}
+
 // Failures of the step; an orbit may well escape.
 bool has_failed(const SectionOrbit& orbit) {
   return orbit.status != runtime::Status::done && orbit.status != runtime::Status::escaped;
@@ -272,6 +295,10 @@ int run_section(const SectionOptions& options) {
     if (const double moves = energy_of_momentum(request); moves > 0.0)
       request.sizes = natural_sizes(*request.library, request.start, moves);
   }
+  const auto is_angle = angles_of(request, g.names);
+  request.turns = is_angle(g.left) && is_constant(g);
+  request.first_turns = is_angle(g.first);
+  request.second_turns = is_angle(g.second);
   request.steps = *scene.steps;
   Work work(progress_bars(options.quiet), "section", std::max(1, request.orbits));
   request.on_progress = [&work](int done, int) { work.tell(done); };
@@ -283,10 +310,11 @@ int run_section(const SectionOptions& options) {
       .scene = scene.name,
       .scheme = method_text(plugin),
       .surface =
-          fmt::format("{} = {}, {}", g.left, g.right,
+          fmt::format("{} = {}{}, {}", g.left, g.right, request.turns ? " (mod 2 pi)" : "",
                       direction == runtime::Direction::both ? "both ways" : options.direction),
       .first = g.first,
       .second = g.second,
+      .angles = angle_axes(request, g),
       .energy = request.energy,
       .h = request.start.h.hi};
   if (!options.quiet) print_error(section_summary(result, title));

@@ -77,6 +77,19 @@ std::string advice(const Section& section, const SectionTitle& title) {
       title.first, left, right, title.second, low, high);
 }
 
+std::string angles_line(const SectionTitle& title) {
+  if (title.angles.empty()) return "";
+  return fmt::format("# angles    {}, from -pi to pi\n", fmt::join(title.angles, ", "));
+}
+
+bool is_angle(const SectionTitle& title, const std::string& axis) {
+  return std::ranges::find(title.angles, axis) != title.angles.end();
+}
+// Of a picture.
+std::string axis_label(const SectionTitle& title, const std::string& axis) {
+  return plain_symbol(axis) + (is_angle(title, axis) ? " (mod 2 pi)" : "");
+}
+
 std::string of_scene(const SectionTitle& title) {
   return title.scene.empty() ? title.model : title.model + ", scene " + title.scene;
 }
@@ -105,12 +118,13 @@ std::string section_summary(const Section& section, const SectionTitle& title) {
 }
 
 std::string section_csv(const Section& section, const SectionTitle& title) {
-  std::string text = fmt::format("# made by   hamgen " HAMGEN_VERSION
-                                 "\n# section   {} of {}\n# scheme    {}, h = {}\n"
-                                 "# energy    {}\norbit,t,{},{}\n",
-                                 title.surface, of_scene(title), title.scheme,
-                                 runtime::number_text(title.h), runtime::number_text(title.energy),
-                                 csv_field(title.first), csv_field(title.second));
+  std::string text =
+      fmt::format("# made by   hamgen " HAMGEN_VERSION
+                  "\n# section   {} of {}\n# scheme    {}, h = {}\n"
+                  "# energy    {}\n{}orbit,t,{},{}\n",
+                  title.surface, of_scene(title), title.scheme, runtime::number_text(title.h),
+                  runtime::number_text(title.energy), angles_line(title), csv_field(title.first),
+                  csv_field(title.second));
   for (std::size_t i = 0; i < section.orbits.size(); ++i) {
     for (const SectionPoint& point : section.orbits[i].points)
       text += fmt::format("{},{},{},{}\n", i + 1, runtime::number_text(point.time),
@@ -141,6 +155,7 @@ std::string section_json(const Section& section, const SectionTitle& title) {
                         {"h", title.h},
                         {"surface", title.surface},
                         {"axes", {title.first, title.second}},
+                        {"angles", title.angles},
                         {"energy", title.energy},
                         {"starts_tried", section.tried},
                         {"starts_without_momentum", section.unreachable},
@@ -150,8 +165,8 @@ std::string section_json(const Section& section, const SectionTitle& title) {
 Plot section_plot(const Section& section, const SectionTitle& title) {
   PlotPanel panel{
       .title = fmt::format("{}: {}, H = {:.6g}", title.model, title.surface, title.energy),
-      .x_label = plain_symbol(title.first),
-      .y_label = plain_symbol(title.second),
+      .x_label = axis_label(title, title.first),
+      .y_label = axis_label(title, title.second),
       .series = {}};
   for (std::size_t i = 0; i < section.orbits.size(); ++i) {
     PlotSeries series{.label = "", .points = {}, .style = PlotStyle::dots};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/output/plot.hpp"
 #include "app/studies/section.hpp"
@@ -13,6 +14,7 @@ struct SectionTitle {
   std::string model, scene, scheme;
   std::string surface;  // "q1 = 0, rising"
   std::string first, second;
+  std::vector<std::string> angles;  // of these, within a turn
   double energy = 0.0;
   double h = 0.0;
 };

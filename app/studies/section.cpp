@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "app/studies/angles.hpp"
 #include "app/studies/section_starts.hpp"
 
 namespace hamgen::app {
@@ -21,6 +23,13 @@ runtime::Status status_after_a_step(runtime::Integrator& integrator, double& lar
              : runtime::Status::done;
 }
 
+// The multiple of a turn that lies between two values, or that is nearest to them.
+double whole_turns_between(double before, double after) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double last = kTurn * std::floor(std::max(before, after) / kTurn);
+  return last >= std::min(before, after) ? last : kTurn * std::round(before / kTurn);
+}
+
 SectionOrbit follow(const SectionRequest& request, const std::vector<runtime::Wide>& state) {
   runtime::InitialValues start = request.start;
   start.state = state;
@@ -28,12 +37,15 @@ SectionOrbit follow(const SectionRequest& request, const std::vector<runtime::Wi
   const auto axes = [&](std::span<const runtime::Wide> at) {
     return request.library->invariants(start.parameters, at);
   };
+  double turns = 0.0;  // that the surface is away
   const runtime::EventLocator locator(
-      request.library, start, [&](auto at) { return axes(at)[0].hi; }, request.direction);
+      request.library, start, [&](auto at) { return axes(at)[0].hi - turns; }, request.direction);
+  const auto first = [&](double x) { return request.first_turns ? within_a_turn(x) : x; };
+  const auto second = [&](double y) { return request.second_turns ? within_a_turn(y) : y; };
   const auto begin = axes(state);
   SectionOrbit orbit{.energy_scale = integrator.judge().energy_terms()};
-  orbit.first = begin[1].hi;
-  orbit.second = begin[2].hi;
+  orbit.first = first(begin[1].hi);
+  orbit.second = second(begin[2].hi);
   std::vector<runtime::Wide> before = state;
   double value_before = begin[0].hi;
   while (orbit.steps < request.steps && static_cast<long>(orbit.points.size()) < request.points) {
@@ -45,13 +57,14 @@ SectionOrbit follow(const SectionRequest& request, const std::vector<runtime::Wi
     if (orbit.status != runtime::Status::done) break;
     ++orbit.steps;
     std::vector<runtime::Wide> after = integrator.state();
-    const double value_after = locator.value(after);
+    const double value_after = axes(after)[0].hi;
+    if (request.turns) turns = whole_turns_between(value_before, value_after);
     for (const runtime::Crossing& crossing :
-         locator.within(before, value_before, after, value_after)) {
+         locator.within(before, value_before - turns, after, value_after - turns)) {
       if (static_cast<long>(orbit.points.size()) == request.points) break;
       const auto values = axes(crossing.state);
       const double steps = static_cast<double>(orbit.steps - 1) + crossing.fraction;
-      orbit.points.push_back({steps * start.h.hi, values[1].hi, values[2].hi});
+      orbit.points.push_back({steps * start.h.hi, first(values[1].hi), second(values[2].hi)});
     }
     before = std::move(after);
     value_before = value_after;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "generator/base/diagnostic.hpp"
@@ -74,8 +75,8 @@ class Region {
         height_(first_half_side(size_at(request, request.second), y)) {}
 
   [[nodiscard]] std::array<double, 4> rectangle() {
-    Side across{.length = &width_};
-    Side up{.length = &height_};
+    Side across{.length = &width_, .turns = request_.first_turns};
+    Side up{.length = &height_, .turns = request_.second_turns};
     while (true) {
       const std::array<double, 4> found = connected();
       const bool wider = across.fit(reaches_x_, found[1] - found[0]);
@@ -99,6 +100,7 @@ class Region {
   // halved while the region is a few cells, of which some may be on the other side of a barrier.
   struct Side {
     double* length;
+    bool turns;  // is it of an angle?
     int doublings = 0, halvings = 0;
 
     bool fit(bool is_reached, double extent) {
@@ -117,10 +119,10 @@ class Region {
       return false;
     }
     // Where the region has no end, half of it is far from the scene's start: what was looked at
-    // first is kept of it.
+    // first is kept of it; of an angle it is a turn.
     bool ends(bool is_reached) {
       if (!is_reached || doublings == 0) return true;
-      *length = std::ldexp(*length, -doublings);
+      *length = turns ? std::numbers::pi : std::ldexp(*length, -doublings);
       return false;
     }
   };

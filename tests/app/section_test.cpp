@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output/section_output.hpp"
+#include "app/studies/angles.hpp"
 #include "generator/base/diagnostic.hpp"
 #include "tests/app/hamgen_command.hpp"
 #include "tests/app/interpreted_orbit.hpp"
@@ -76,7 +77,6 @@ TEST(Section, GivesTheLastMomentumTheEnergy) {
   EXPECT_THROW((void)app::section(request), UsageError);
 }
 
-// The momentum's term is not p^2/2 and couples to the other one.
 // Below the barrier orbits of a pendulum swing, within their angle; beyond it they turn round, and
 // the angle has no end: no more than 1 from the scene's start is taken of it.
 TEST(Section, StartsNearTheSceneWhereTheRegionHasNoEnd) {
@@ -97,8 +97,63 @@ TEST(Section, StartsNearTheSceneWhereTheRegionHasNoEnd) {
     EXPECT_LE(reached, farthest + 1e-12) << energy;
     EXPECT_GT(reached, 0.8 * farthest) << energy;
   }
+  // Of an angle a turn is taken.
+  request.first_turns = true;
+  double reached = 0;
+  for (const app::SectionOrbit& each : app::section(request).orbits)
+    reached = std::max(reached, std::abs(each.first));
+  EXPECT_GT(reached, 2.5);
 }
 
+// A pendulum that turns round beside one that swings: each turn crosses the surface, and what the
+// angles are is what is left of their turns.
+TEST(Section, CountsTurnsOfAnAngleAsOne) {
+  const auto orbit = interpreted_orbit(
+      "system turning\ncoordinate x, y\nmomentum u, v\n"
+      "H = (u^2 + v^2)/2 - cos(x) - cos(y) - cos(x - y)/8\n"
+      "invariant surface = x\ninvariant axis_1 = y\ninvariant axis_2 = v\n"
+      "scene start { u = 3; v = 2.5; y = 1 }\n",
+      "gauss-4", "0.05");
+  app::SectionRequest request = request_of(*orbit);
+  request.orbits = 0;
+  EXPECT_EQ(app::section(request).orbits[0].points.size(), 0U) << "it does not come back to 0";
+  request.turns = true;
+  for (const auto direction : {runtime::Direction::rising, runtime::Direction::falling}) {
+    request.direction = direction;
+    request.start.state[2] = {direction == runtime::Direction::rising ? 3.0 : -3.0, 0.0};
+    request.first_turns = false;
+    const app::SectionOrbit far = app::section(request).orbits[0];
+    request.first_turns = true;
+    const app::SectionOrbit near = app::section(request).orbits[0];
+    ASSERT_EQ(far.points.size(), 12U);
+    ASSERT_EQ(near.points.size(), 12U);
+    const double pi = std::acos(-1.0);
+    EXPECT_GT(std::abs(far.points[11].first), 6 * pi);
+    for (std::size_t i = 0; i < 12; ++i) {
+      EXPECT_LE(std::abs(near.points[i].first), pi);
+      EXPECT_NEAR(std::cos(near.points[i].first), std::cos(far.points[i].first), 1e-13);
+      EXPECT_EQ(near.points[i].time, far.points[i].time);
+    }
+    request.direction = direction == runtime::Direction::rising ? runtime::Direction::falling
+                                                                : runtime::Direction::rising;
+    EXPECT_EQ(app::section(request).orbits[0].points.size(), 0U) << "it turns the other way";
+  }
+}
+
+// Lengths, and what H does not depend on, are none; nor is what only seems to turn.
+TEST(Section, KnowsAnglesByTheEnergy) {
+  const auto orbit = interpreted_orbit(
+      "system five\ncoordinate x, y, z, w, s\nmomentum a, b, c, d, e\n"
+      "H = (a^2 + b^2 + c^2 + d^2 + e^2)/2 + x^2/2 - cos(y) - cos(y - 2*w) + sin(s/2) + w^2/10^6\n"
+      "scene start { x = 1; a = 1; b = 1 }\n",
+      "gauss-4", "0.05");
+  const std::vector<double> sizes(10, 1.0);
+  EXPECT_EQ(app::angles(*orbit->library, orbit->start, sizes),
+            std::vector<bool>({false, true, false, false, false}));
+  EXPECT_EQ(app::within_a_turn(7.0), std::remainder(7.0, 2 * std::acos(-1.0)));
+}
+
+// The momentum's term is not p^2/2 and couples to the other one.
 TEST(Section, FindsAMomentumThatIsCoupled) {
   const auto orbit = interpreted_orbit(
       "system coupled\ncoordinate x, y\nmomentum u, v\n"
@@ -133,6 +188,19 @@ TEST(SectionCommand, WritesPointsPictureAndJson) {
   }
   EXPECT_EQ(rows, 15);
   EXPECT_TRUE(contains(read(scratch.path("s.svg")), "</svg>"));
+}
+
+TEST(SectionCommand, SaysWhatIsAnAngle) {
+  const Scratch scratch;
+  const Result result = hamgen({"section", HAMGEN_SOURCE_DIR "/hamiltonians/double_pendulum.ham",
+                                "--orbits", "0", "--points", "3", "--steps", "20000", "--plot",
+                                scratch.path("s.svg"), "-o", scratch.path("s.csv"), "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["surface"], "q1 = 0 (mod 2 pi), rising");
+  EXPECT_EQ(json["angles"], nlohmann::json::array({"q2"}));
+  EXPECT_TRUE(contains(read(scratch.path("s.csv")), "\n# angles    q2, from -pi to pi\n"));
+  EXPECT_TRUE(contains(read(scratch.path("s.svg")), "(mod 2 pi)"));
 }
 
 // No more points than were asked for, though the last step crosses twice.
