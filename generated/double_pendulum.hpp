@@ -88,11 +88,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_bb5861c5::float64 {
+namespace hamgen_9581d1fb::float64 {
 using Real = double;
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
-#define HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
+#define HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -102,15 +102,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_VOCABULARY
-#define HAMGEN_BB5861C5_FLOAT64_VOCABULARY
+#ifndef HAMGEN_9581D1FB_FLOAT64_VOCABULARY
+#define HAMGEN_9581D1FB_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_TWO_SUM
-#define HAMGEN_BB5861C5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_9581D1FB_FLOAT64_TWO_SUM
+#define HAMGEN_9581D1FB_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -120,8 +120,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
-#define HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
+#define HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -133,14 +133,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_VERDICT
-#define HAMGEN_BB5861C5_FLOAT64_VERDICT
+#ifndef HAMGEN_9581D1FB_FLOAT64_VERDICT
+#define HAMGEN_9581D1FB_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE
-#define HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE
+#define HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -313,8 +313,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -584,8 +584,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_HISTORY
-#define HAMGEN_BB5861C5_FLOAT64_HISTORY
+#ifndef HAMGEN_9581D1FB_FLOAT64_HISTORY
+#define HAMGEN_9581D1FB_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -686,8 +686,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_FORGET
-#define HAMGEN_BB5861C5_FLOAT64_FORGET
+#ifndef HAMGEN_9581D1FB_FLOAT64_FORGET
+#define HAMGEN_9581D1FB_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -697,17 +697,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_bb5861c5::float64
+}  // namespace hamgen_9581d1fb::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_double_pendulum_symplectic_euler_a
-#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x754f4c87
+#define HAMGEN_METHOD_double_pendulum_symplectic_euler_a 0x5048175a
 namespace double_pendulum::symplectic_euler_a {
-inline namespace emitted_754f4c87 {
+inline namespace emitted_5048175a {
 
-namespace numerics = ::hamgen_bb5861c5::float64;
+namespace numerics = ::hamgen_9581d1fb::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRuleOfMany, numerics::History, numerics::forget;
 
@@ -896,9 +896,9 @@ class Propagator {
   History<2> history_;
 };
 
-}  // namespace emitted_754f4c87
+}  // namespace emitted_5048175a
 }  // namespace double_pendulum::symplectic_euler_a
-#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x754f4c87
+#elif HAMGEN_METHOD_double_pendulum_symplectic_euler_a != 0x5048175a
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -76,11 +76,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[4]) {
 #endif
 
 // What follows knows nothing of the system.
-namespace hamgen_bb5861c5::float64 {
+namespace hamgen_9581d1fb::float64 {
 using Real = double;
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
-#define HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
+#define HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -90,8 +90,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_TWO_SUM
-#define HAMGEN_BB5861C5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_9581D1FB_FLOAT64_TWO_SUM
+#define HAMGEN_9581D1FB_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -101,8 +101,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
-#define HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
+#define HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -114,14 +114,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-}  // namespace hamgen_bb5861c5::float64
+}  // namespace hamgen_9581d1fb::float64
 
 #ifndef HAMGEN_METHOD_driven_oscillator_implicit_midpoint
-#define HAMGEN_METHOD_driven_oscillator_implicit_midpoint 0xda5485e9
+#define HAMGEN_METHOD_driven_oscillator_implicit_midpoint 0x294ddf08
 namespace driven_oscillator::implicit_midpoint {
-inline namespace emitted_da5485e9 {
+inline namespace emitted_294ddf08 {
 
-namespace numerics = ::hamgen_bb5861c5::float64;
+namespace numerics = ::hamgen_9581d1fb::float64;
 using numerics::StepReport, numerics::two_sum_with_rest;
 
 // What depends on h and the parameters alone.
@@ -252,9 +252,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_da5485e9
+}  // namespace emitted_294ddf08
 }  // namespace driven_oscillator::implicit_midpoint
-#elif HAMGEN_METHOD_driven_oscillator_implicit_midpoint != 0xda5485e9
+#elif HAMGEN_METHOD_driven_oscillator_implicit_midpoint != 0x294ddf08
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -143,11 +143,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2 * n
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_bb5861c5::float64 {
+namespace hamgen_9581d1fb::float64 {
 using Real = double;
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
-#define HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
+#define HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -157,15 +157,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_VOCABULARY
-#define HAMGEN_BB5861C5_FLOAT64_VOCABULARY
+#ifndef HAMGEN_9581D1FB_FLOAT64_VOCABULARY
+#define HAMGEN_9581D1FB_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_TWO_SUM
-#define HAMGEN_BB5861C5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_9581D1FB_FLOAT64_TWO_SUM
+#define HAMGEN_9581D1FB_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -175,8 +175,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
-#define HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
+#define HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -188,8 +188,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_SUMS
-#define HAMGEN_BB5861C5_FLOAT64_SUMS
+#ifndef HAMGEN_9581D1FB_FLOAT64_SUMS
+#define HAMGEN_9581D1FB_FLOAT64_SUMS
 // A sum of many terms, in eight parts that do not wait for each other.
 template <class Term>
 inline Real sum_of(int count, const Term& term) {
@@ -240,8 +240,8 @@ inline Real squares_of(const Real (&vector)[Size], const Real (&other)[Size]) {
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_BAND_MATRIX
-#define HAMGEN_BB5861C5_FLOAT64_BAND_MATRIX
+#ifndef HAMGEN_9581D1FB_FLOAT64_BAND_MATRIX
+#define HAMGEN_9581D1FB_FLOAT64_BAND_MATRIX
 // A matrix whose entries lie within Width of the diagonal.  Elimination with partial pivoting fills
 // as many diagonals again above it.  Row i holds columns i - Width on.
 template <int Size, int Width>
@@ -306,8 +306,8 @@ class BandMatrix {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_SYMMETRIC_BAND_MATRIX
-#define HAMGEN_BB5861C5_FLOAT64_SYMMETRIC_BAND_MATRIX
+#ifndef HAMGEN_9581D1FB_FLOAT64_SYMMETRIC_BAND_MATRIX
+#define HAMGEN_9581D1FB_FLOAT64_SYMMETRIC_BAND_MATRIX
 // A symmetric one: L D L^T without pivots where it is positive definite, else as any other one.
 template <int Size, int Width>
 class SymmetricBandMatrix : public BandMatrix<Size, Width> {
@@ -372,14 +372,14 @@ class SymmetricBandMatrix : public BandMatrix<Size, Width> {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_VERDICT
-#define HAMGEN_BB5861C5_FLOAT64_VERDICT
+#ifndef HAMGEN_9581D1FB_FLOAT64_VERDICT
+#define HAMGEN_9581D1FB_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE
-#define HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE
+#define HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -552,8 +552,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE_OF_MANY
-#define HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE_OF_MANY
+#ifndef HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE_OF_MANY
+#define HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE_OF_MANY
 // NewtonRule of several unknowns.
 //
 // Note [units]
@@ -823,8 +823,8 @@ struct NewtonRuleOfMany : NewtonRule<Power> {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_WAITING_NEWTON_RULE
-#define HAMGEN_BB5861C5_FLOAT64_WAITING_NEWTON_RULE
+#ifndef HAMGEN_9581D1FB_FLOAT64_WAITING_NEWTON_RULE
+#define HAMGEN_9581D1FB_FLOAT64_WAITING_NEWTON_RULE
 // NewtonRuleOfMany of an iteration that many steps do without: these are not watched.
 template <int Power, int Unknowns>
 struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
@@ -847,8 +847,8 @@ struct WaitingNewtonRule : NewtonRuleOfMany<Power, Unknowns> {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_FIXED_POINT_RULE
-#define HAMGEN_BB5861C5_FLOAT64_FIXED_POINT_RULE
+#ifndef HAMGEN_9581D1FB_FLOAT64_FIXED_POINT_RULE
+#define HAMGEN_9581D1FB_FLOAT64_FIXED_POINT_RULE
 // How far an iteration has moved: sums over the unknowns of their increments, of what these are
 // rounded with, and of the increments of those that are not near their end.
 struct Distance {
@@ -976,8 +976,8 @@ struct FixedPointRule {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_CONTRACTION_RULE
-#define HAMGEN_BB5861C5_FLOAT64_CONTRACTION_RULE
+#ifndef HAMGEN_9581D1FB_FLOAT64_CONTRACTION_RULE
+#define HAMGEN_9581D1FB_FLOAT64_CONTRACTION_RULE
 // When to stop a fixed point that starts near its end: where what is still missing is lost in
 // rounding, as far as the contraction is known; else FixedPointRule and Refinement have the word.
 //
@@ -1123,8 +1123,8 @@ struct ContractionRule {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_REFINEMENT
-#define HAMGEN_BB5861C5_FLOAT64_REFINEMENT
+#ifndef HAMGEN_9581D1FB_FLOAT64_REFINEMENT
+#define HAMGEN_9581D1FB_FLOAT64_REFINEMENT
 // The end of a fixed-point iteration, below the last place of its unknowns.  Of the points that its
 // rounded map takes to themselves it ends at one on the side it came from, and at one where the
 // rounding of the map lets it: at every step alike, a bias and no chance.  So it goes on from any
@@ -1156,8 +1156,9 @@ struct ContractionRule {
 // some roundings of its way, and behind those a pendulum, which left a hundredth of itself beside
 // what was louder and shrank to a 1e4th, lost 2e-3 roundings a step.  So it is asked what a round
 // of refinement leaves of each error, in every 48th step at least.  Its way is the longest of late:
-// where an unknown turns back its energy is what it was.  One that grows has little of an energy
-// yet: a 256th of what it has gained may be left, as ahead of a wave.
+// where an unknown turns back its energy is what it was.  One whose way grows by a 32nd in a step,
+// as ahead of a wave, has little of an energy yet, and an increment of a rounding or two has its
+// sign by chance: these are not asked.
 //
 template <int Size, int Components, bool RoundsBeside = false, bool TwoForms = false>
 struct Refinement {
@@ -1231,10 +1232,7 @@ struct Refinement {
     if (rounds == 0 && behind <= 0 && untold < 48) ++untold;
     if (rule.settled) {
       const Real little = epsilon * epsilon * rule.round_off;
-      if (behind <= 0) {
-        doubted =
-            !rule.sure && !(foreseen && not_lost_behind(lack) <= little && knows_how_they_shrink());
-      }
+      if (behind <= 0) doubted = !rule.sure && !is_believed(point, lack, little);
       foreseen = false;
       const bool seen = lacking(lack) > rule.round_off;
       const Real open = left(point, lack, seen ? 64 : 8);
@@ -1258,7 +1256,7 @@ struct Refinement {
     rule.settled = false;
     const int count = rounds;
     if (count == 0) asked = rule.rounds_asked();
-    if (count == 1 && (asks || untold >= 16)) learn_how_they_shrink(lack);
+    if (count == 1) tell_how_they_shrink(lack);
     const bool more = (*this)(point, lack, gradient);
     if (count > 0 && begun > 0) rule.learn_of_rounds(count, last / begun, 8 / amplifier);
     if (!more || !rule.is_slow()) return more;
@@ -1307,24 +1305,33 @@ struct Refinement {
     untold = 48;
     for (int j = 0; j < Size; ++j) ways[j] = longest[j] = spans[j] = shrinks[j] = 0;
   }
+  bool is_believed(const Real* point, const Real* lack, Real little) {
+    return foreseen && not_lost_behind(point, lack) <= little && knows_how_they_shrink();
+  }
   // Of the increments, where what is left behind counts: what follows is seen from some roundings
   // of a way on, which are those of the equations, and that again in the same ratio is left; or as
   // much as errors shrink.  See Note [what is left behind].
-  Real not_lost_behind(const Real* lack) {
-    return sum_of<Size>([&](int j) {
+  Real not_lost_behind(const Real* point, const Real* lack) {
+    for (int j = 0; j < Size; ++j) {
       const Real follows = magnitude(lack[j] - moved[j]);
       const Real before = longest[j] * (Real(1023) / 1024);
-      const Real gained = ways[j] > before ? ways[j] - before : Real(0);
-      longest[j] = before + gained;
-      const Real may_leave = epsilon * (longest[j] / 16384 + gained / 256);
-      const bool is_seen = follows > 4 * epsilon * at[j];
-      const bool counts = (is_seen && follows * (follows / missing[j]) > may_leave) ||
-                          shrinks[j] * shrinks[j] * missing[j] > 4 * may_leave;
-      return counts ? (follows > missing[j] ? follows : missing[j]) : Real(0);
-    });
+      longest[j] = ways[j] > before ? ways[j] : before;
+      const bool grows = 32 * (longest[j] - before) > longest[j];
+      const bool by_chance = missing[j] <= 2 * epsilon * length(point[j]);
+      const Real seen = follows > 4 * epsilon * at[j] ? follows * (follows / missing[j]) : Real(0);
+      const Real told = grows || by_chance ? Real(0) : shrinks[j] * shrinks[j] * missing[j];
+      const Real left = seen > told ? seen : told;
+      const Real larger = follows > missing[j] ? follows : missing[j];
+      moved[j] = 16384 * left > epsilon * longest[j] ? larger : Real(0);
+    }
+    return lengths_of(moved);
   }
   // A single one is told by the rule itself.
   bool knows_how_they_shrink() const { return Size == 1 || untold < 48; }
+  void tell_how_they_shrink(const Real* lack) {
+    if (untold >= (asks ? 4 : 16)) learn_how_they_shrink(lack);
+    asks = false;
+  }
   // By the first round behind the rounded point, of the errors that this leaves: a rough pattern,
   // which shrinks less than a smooth one.
   void learn_how_they_shrink(const Real* lack) {
@@ -1339,7 +1346,6 @@ struct Refinement {
       shrinks[j] = shrinks[j] > 0 ? (3 * shrinks[j] + left) / 4 : left;
     }
     untold = 0;
-    asks = false;
   }
   void forget_changes() {
     changes = false;
@@ -1430,8 +1436,8 @@ struct Refinement {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_HISTORY
-#define HAMGEN_BB5861C5_FLOAT64_HISTORY
+#ifndef HAMGEN_9581D1FB_FLOAT64_HISTORY
+#define HAMGEN_9581D1FB_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -1532,8 +1538,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_FORGET
-#define HAMGEN_BB5861C5_FLOAT64_FORGET
+#ifndef HAMGEN_9581D1FB_FLOAT64_FORGET
+#define HAMGEN_9581D1FB_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -1543,17 +1549,17 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-}  // namespace hamgen_bb5861c5::float64
+}  // namespace hamgen_9581d1fb::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_fput_implicit_midpoint
-#define HAMGEN_METHOD_fput_implicit_midpoint 0xc9f7a5d8
+#define HAMGEN_METHOD_fput_implicit_midpoint 0xbb9d0c9d
 namespace fput::implicit_midpoint {
-inline namespace emitted_c9f7a5d8 {
+inline namespace emitted_bb9d0c9d {
 
-namespace numerics = ::hamgen_bb5861c5::float64;
+namespace numerics = ::hamgen_9581d1fb::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::squares_of,
     numerics::SymmetricBandMatrix, numerics::Verdict, numerics::WaitingNewtonRule,
     numerics::Distance, numerics::ContractionRule, numerics::Refinement, numerics::History,
@@ -1899,9 +1905,9 @@ class Propagator {
   return report;
 }
 
-}  // namespace emitted_c9f7a5d8
+}  // namespace emitted_bb9d0c9d
 }  // namespace fput::implicit_midpoint
-#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xc9f7a5d8
+#elif HAMGEN_METHOD_fput_implicit_midpoint != 0xbb9d0c9d
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -66,11 +66,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows knows nothing of the system.
-namespace hamgen_bb5861c5::float64 {
+namespace hamgen_9581d1fb::float64 {
 using Real = double;
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
-#define HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
+#define HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -80,15 +80,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_VOCABULARY
-#define HAMGEN_BB5861C5_FLOAT64_VOCABULARY
+#ifndef HAMGEN_9581D1FB_FLOAT64_VOCABULARY
+#define HAMGEN_9581D1FB_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_TWO_SUM
-#define HAMGEN_BB5861C5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_9581D1FB_FLOAT64_TWO_SUM
+#define HAMGEN_9581D1FB_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -98,8 +98,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
-#define HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
+#define HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -111,8 +111,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_PRODUCT_ERROR
-#define HAMGEN_BB5861C5_FLOAT64_PRODUCT_ERROR
+#ifndef HAMGEN_9581D1FB_FLOAT64_PRODUCT_ERROR
+#define HAMGEN_9581D1FB_FLOAT64_PRODUCT_ERROR
 // x * y less its rounded value, by Dekker's product of halves: exact without a fused multiply-add,
 // unless `splitter` times one of them overflows.
 inline Real product_error(Real x, Real y) {
@@ -132,8 +132,8 @@ inline Real product_error(Real x, Real y) {
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_DIFFERENCE_ERROR
-#define HAMGEN_BB5861C5_FLOAT64_DIFFERENCE_ERROR
+#ifndef HAMGEN_9581D1FB_FLOAT64_DIFFERENCE_ERROR
+#define HAMGEN_9581D1FB_FLOAT64_DIFFERENCE_ERROR
 // x - y less its rounded value (Knuth): exact whatever their sizes.
 inline Real difference_error(Real x, Real y) {
   const Real difference = x - y;
@@ -142,14 +142,14 @@ inline Real difference_error(Real x, Real y) {
 }
 #endif
 
-}  // namespace hamgen_bb5861c5::float64
+}  // namespace hamgen_9581d1fb::float64
 
 #ifndef HAMGEN_METHOD_harmonic_implicit_midpoint
-#define HAMGEN_METHOD_harmonic_implicit_midpoint 0x37437ddd
+#define HAMGEN_METHOD_harmonic_implicit_midpoint 0xbb0de341
 namespace harmonic::implicit_midpoint {
-inline namespace emitted_37437ddd {
+inline namespace emitted_bb0de341 {
 
-namespace numerics = ::hamgen_bb5861c5::float64;
+namespace numerics = ::hamgen_9581d1fb::float64;
 using numerics::StepReport, numerics::two_sum_with_rest, numerics::product_error,
     numerics::difference_error;
 
@@ -284,9 +284,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_37437ddd
+}  // namespace emitted_bb0de341
 }  // namespace harmonic::implicit_midpoint
-#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0x37437ddd
+#elif HAMGEN_METHOD_harmonic_implicit_midpoint != 0xbb0de341
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

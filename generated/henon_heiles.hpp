@@ -75,11 +75,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[4]) {
 #endif
 
 // What follows knows nothing of the system.
-namespace hamgen_bb5861c5::float64 {
+namespace hamgen_9581d1fb::float64 {
 using Real = double;
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
-#define HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
+#define HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -89,8 +89,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_TWO_SUM
-#define HAMGEN_BB5861C5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_9581D1FB_FLOAT64_TWO_SUM
+#define HAMGEN_9581D1FB_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -100,8 +100,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
-#define HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
+#define HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -113,8 +113,8 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_DIFFERENCE_ERROR
-#define HAMGEN_BB5861C5_FLOAT64_DIFFERENCE_ERROR
+#ifndef HAMGEN_9581D1FB_FLOAT64_DIFFERENCE_ERROR
+#define HAMGEN_9581D1FB_FLOAT64_DIFFERENCE_ERROR
 // x - y less its rounded value (Knuth): exact whatever their sizes.
 inline Real difference_error(Real x, Real y) {
   const Real difference = x - y;
@@ -123,14 +123,14 @@ inline Real difference_error(Real x, Real y) {
 }
 #endif
 
-}  // namespace hamgen_bb5861c5::float64
+}  // namespace hamgen_9581d1fb::float64
 
 #ifndef HAMGEN_METHOD_henon_heiles_symplectic_euler_a
-#define HAMGEN_METHOD_henon_heiles_symplectic_euler_a 0x50712f2c
+#define HAMGEN_METHOD_henon_heiles_symplectic_euler_a 0x3a1842c6
 namespace henon_heiles::symplectic_euler_a {
-inline namespace emitted_50712f2c {
+inline namespace emitted_3a1842c6 {
 
-namespace numerics = ::hamgen_bb5861c5::float64;
+namespace numerics = ::hamgen_9581d1fb::float64;
 using numerics::StepReport, numerics::two_sum_with_rest, numerics::difference_error;
 
 // dz + rest = Z - z for one step from z + carry; rest is small.
@@ -241,9 +241,9 @@ class Propagator {
   long long steps_ = 0;
 };
 
-}  // namespace emitted_50712f2c
+}  // namespace emitted_3a1842c6
 }  // namespace henon_heiles::symplectic_euler_a
-#elif HAMGEN_METHOD_henon_heiles_symplectic_euler_a != 0x50712f2c
+#elif HAMGEN_METHOD_henon_heiles_symplectic_euler_a != 0x3a1842c6
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

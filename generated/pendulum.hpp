@@ -71,11 +71,11 @@ inline void gradient(const Parameters& par, const State& z, Real (&values)[2]) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #endif
-namespace hamgen_bb5861c5::float64 {
+namespace hamgen_9581d1fb::float64 {
 using Real = double;
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
-#define HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
+#define HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -85,15 +85,15 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_VOCABULARY
-#define HAMGEN_BB5861C5_FLOAT64_VOCABULARY
+#ifndef HAMGEN_9581D1FB_FLOAT64_VOCABULARY
+#define HAMGEN_9581D1FB_FLOAT64_VOCABULARY
 inline Real magnitude(Real x) { return std::fabs(x); }
 inline constexpr Real largest = 1.0e308;  // what is beyond counts as infinite
 inline constexpr Real epsilon = 0x1p-52;  // the distance from 1 to the next number
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_TWO_SUM
-#define HAMGEN_BB5861C5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_9581D1FB_FLOAT64_TWO_SUM
+#define HAMGEN_9581D1FB_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -103,8 +103,8 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
-#define HAMGEN_BB5861C5_FLOAT64_SUM_WITH_REST
+#ifndef HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
+#define HAMGEN_9581D1FB_FLOAT64_SUM_WITH_REST
 // value + carry = value + increment + rest, for an increment that is not small and a rest that is,
 // with the old carry in it: the new carry is what the rounded sums of all three lose.  That of the
 // first is exact where the rest is the smaller of the two, else to the last place of the carry.
@@ -116,14 +116,14 @@ inline void two_sum_with_rest(Real& value, Real& carry, Real increment, Real res
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_VERDICT
-#define HAMGEN_BB5861C5_FLOAT64_VERDICT
+#ifndef HAMGEN_9581D1FB_FLOAT64_VERDICT
+#define HAMGEN_9581D1FB_FLOAT64_VERDICT
 // What a stopping rule says after an iteration.
 enum class Verdict { go_on, done, failed };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE
-#define HAMGEN_BB5861C5_FLOAT64_NEWTON_RULE
+#ifndef HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE
+#define HAMGEN_9581D1FB_FLOAT64_NEWTON_RULE
 // When to stop Newton's iteration: at round-off.  Increments shrink as
 //   next <= contraction * size^Power,
 // Power = 2 with the exact matrix, 1 with an approximate one.  The last increment still enters the
@@ -296,8 +296,8 @@ struct NewtonRule {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_HISTORY
-#define HAMGEN_BB5861C5_FLOAT64_HISTORY
+#ifndef HAMGEN_9581D1FB_FLOAT64_HISTORY
+#define HAMGEN_9581D1FB_FLOAT64_HISTORY
 // Solutions of earlier steps, extrapolated by polynomials.  With s_d the prediction of degree d
 // and x the solution that came, the next predictions are
 //   (d + 1) x - s_0 - ... - s_(d-1).
@@ -398,8 +398,8 @@ struct History {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_FORGET
-#define HAMGEN_BB5861C5_FLOAT64_FORGET
+#ifndef HAMGEN_9581D1FB_FLOAT64_FORGET
+#define HAMGEN_9581D1FB_FLOAT64_FORGET
 // As if no step had been recorded, in place: a large History makes no temporary on the stack.
 template <int Unknowns>
 void forget(History<Unknowns>& history) {
@@ -409,8 +409,8 @@ void forget(History<Unknowns>& history) {
 }
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_AHEAD
-#define HAMGEN_BB5861C5_FLOAT64_AHEAD
+#ifndef HAMGEN_9581D1FB_FLOAT64_AHEAD
+#define HAMGEN_9581D1FB_FLOAT64_AHEAD
 // What the polynomial that predicts the next solution says of the one after it: with s_d the next
 // one's predictions and D the degree it is taken of,
 //   (D + 1) s_D - s_0 - ... - s_(D-1),
@@ -425,17 +425,17 @@ void extrapolate_twice(const History<Unknowns>& history, Real (&solution)[Unknow
 }
 #endif
 
-}  // namespace hamgen_bb5861c5::float64
+}  // namespace hamgen_9581d1fb::float64
 #if defined __GNUC__ && !defined __clang__
 #pragma GCC diagnostic pop
 #endif
 
 #ifndef HAMGEN_METHOD_pendulum_implicit_midpoint
-#define HAMGEN_METHOD_pendulum_implicit_midpoint 0xa67c4262
+#define HAMGEN_METHOD_pendulum_implicit_midpoint 0x6a692492
 namespace pendulum::implicit_midpoint {
-inline namespace emitted_a67c4262 {
+inline namespace emitted_6a692492 {
 
-namespace numerics = ::hamgen_bb5861c5::float64;
+namespace numerics = ::hamgen_9581d1fb::float64;
 using numerics::StepReport, numerics::magnitude, numerics::two_sum_with_rest, numerics::Verdict,
     numerics::NewtonRule, numerics::History, numerics::forget, numerics::extrapolate_twice;
 
@@ -626,9 +626,9 @@ class Propagator {
   History<1> history_;
 };
 
-}  // namespace emitted_a67c4262
+}  // namespace emitted_6a692492
 }  // namespace pendulum::implicit_midpoint
-#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0xa67c4262
+#elif HAMGEN_METHOD_pendulum_implicit_midpoint != 0x6a692492
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

@@ -65,11 +65,11 @@ inline void gradient(const Parameters&, const State& z, Real (&values)[2]) {
 #endif
 
 // What follows knows nothing of the system.
-namespace hamgen_bb5861c5::float64 {
+namespace hamgen_9581d1fb::float64 {
 using Real = double;
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
-#define HAMGEN_BB5861C5_FLOAT64_STEP_REPORT
+#ifndef HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
+#define HAMGEN_9581D1FB_FLOAT64_STEP_REPORT
 // On failure the increment says how far the iteration was from its end; it is not finite where the
 // step left the domain of H.
 struct StepReport {
@@ -79,8 +79,8 @@ struct StepReport {
 };
 #endif
 
-#ifndef HAMGEN_BB5861C5_FLOAT64_TWO_SUM
-#define HAMGEN_BB5861C5_FLOAT64_TWO_SUM
+#ifndef HAMGEN_9581D1FB_FLOAT64_TWO_SUM
+#define HAMGEN_9581D1FB_FLOAT64_TWO_SUM
 // value += increment; what rounding loses is left in carry (two-sum of Knuth).
 inline void two_sum(Real& value, Real& carry, Real increment) {
   const Real sum = value + increment;
@@ -90,14 +90,14 @@ inline void two_sum(Real& value, Real& carry, Real increment) {
 }
 #endif
 
-}  // namespace hamgen_bb5861c5::float64
+}  // namespace hamgen_9581d1fb::float64
 
 #ifndef HAMGEN_METHOD_product_symplectic_euler_b
-#define HAMGEN_METHOD_product_symplectic_euler_b 0x47bed976
+#define HAMGEN_METHOD_product_symplectic_euler_b 0x70c4c261
 namespace product::symplectic_euler_b {
-inline namespace emitted_47bed976 {
+inline namespace emitted_70c4c261 {
 
-namespace numerics = ::hamgen_bb5861c5::float64;
+namespace numerics = ::hamgen_9581d1fb::float64;
 using numerics::StepReport, numerics::two_sum;
 
 // What depends on h and the parameters alone.
@@ -201,9 +201,9 @@ class Propagator {
   Coefficients k_;
 };
 
-}  // namespace emitted_47bed976
+}  // namespace emitted_70c4c261
 }  // namespace product::symplectic_euler_b
-#elif HAMGEN_METHOD_product_symplectic_euler_b != 0x47bed976
+#elif HAMGEN_METHOD_product_symplectic_euler_b != 0x70c4c261
 #error "another method of this name is included before: generate one with --namespace"
 #endif
 

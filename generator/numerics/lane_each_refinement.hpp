@@ -75,7 +75,7 @@ struct Refinement {
       rule.settled = turn.lanes & rule.settled;
       if (!went_ahead) {
         untold = select(turn.lanes & (untold < 48), untold + 1, untold);
-        doubt(rule, lack);
+        doubt(rule, point, lack);
       }
       went_ahead = goes_ahead(rule, point, lack);
       if (went_ahead) return true;
@@ -83,7 +83,7 @@ struct Refinement {
       open = open & !rule.settled;
     }
     const Mask looked = open;
-    if (count == 1) learn_how_they_shrink(open & (asks | (untold >= 16)), lack);
+    if (count == 1) tell_how_they_shrink(lack);
     round(lack, gradient);
     if (count > 0)
       rule.learn_of_rounds(looked & (begun > 0), count, last / begun, Real(8 / amplifier));
@@ -102,26 +102,32 @@ struct Refinement {
  private:
   // What is settled, by what is seen, before any lane has gone ahead.
   template <class Rule>
-  void doubt(const Rule& rule, const Real* lack) {
+  void doubt(const Rule& rule, const Real* point, const Real* lack) {
     doubted = rule.settled & !rule.sure;
     if (!any(doubted)) return;
     const Mask looks = foreseen & doubted;
     const Real left = sum_of(Size, [&](int j) {
       const Real follows = magnitude(lack[j] - moved[j]);
       const Real before = longest[j] * (Real(1023) / 1024);
-      const Real gained = select(ways[j] > before, ways[j] - before, Real(0));
-      const Real now = before + gained;
+      const Real now = select(ways[j] > before, ways[j], before);
       longest[j] = select(looks, now, longest[j]);
-      const Real may_leave = epsilon * (now / 16384 + gained / 256);
-      const Mask is_seen = follows > 4 * epsilon * at[j];
-      const Mask counts = (is_seen & (follows * (follows / missing[j]) > may_leave)) |
-                          (shrinks[j] * shrinks[j] * missing[j] > 4 * may_leave);
-      return select(counts, select(follows > missing[j], follows, missing[j]), Real(0));
+      const Real seen =
+          select(follows > 4 * epsilon * at[j], follows * (follows / missing[j]), Real(0));
+      const Mask grows = 32 * (now - before) > now;
+      const Mask by_chance = missing[j] <= 2 * epsilon * length(point[j]);
+      const Real told = select(grows | by_chance, Real(0), shrinks[j] * shrinks[j] * missing[j]);
+      const Real part = select(seen > told, seen, told);
+      const Real larger = select(follows > missing[j], follows, missing[j]);
+      return select(16384 * part > epsilon * now, larger, Real(0));
     });
     const Mask lost =
         (left <= epsilon * epsilon * rule.round_off) & (Size == 1 ? Mask(true) : untold < 48);
     doubted = doubted & !(foreseen & lost);
     foreseen = false;
+  }
+  void tell_how_they_shrink(const Real* lack) {
+    learn_how_they_shrink(open & ((asks & (untold >= 4)) | (untold >= 16)), lack);
+    asks = asks & !open;
   }
   void learn_how_they_shrink(const Mask& lanes, const Real* lack) {
     if (!any(lanes)) return;
@@ -139,7 +145,6 @@ struct Refinement {
       shrinks[j] = select(lanes, mean, shrinks[j]);
     }
     untold = select(lanes, Real(0), untold);
-    asks = asks & !lanes;
   }
   // As long as some small unknowns have not come to their end, all of that lane go on.
   template <class Rule>

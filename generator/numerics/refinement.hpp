@@ -29,8 +29,9 @@
 // some roundings of its way, and behind those a pendulum, which left a hundredth of itself beside
 // what was louder and shrank to a 1e4th, lost 2e-3 roundings a step.  So it is asked what a round
 // of refinement leaves of each error, in every 48th step at least.  Its way is the longest of late:
-// where an unknown turns back its energy is what it was.  One that grows has little of an energy
-// yet: a 256th of what it has gained may be left, as ahead of a wave.
+// where an unknown turns back its energy is what it was.  One whose way grows by a 32nd in a step,
+// as ahead of a wave, has little of an energy yet, and an increment of a rounding or two has its
+// sign by chance: these are not asked.
 //
 template <int Size, int Components, bool RoundsBeside = false, bool TwoForms = false>
 struct Refinement {
@@ -104,10 +105,7 @@ struct Refinement {
     if (rounds == 0 && behind <= 0 && untold < 48) ++untold;
     if (rule.settled) {
       const Real little = epsilon * epsilon * rule.round_off;
-      if (behind <= 0) {
-        doubted =
-            !rule.sure && !(foreseen && not_lost_behind(lack) <= little && knows_how_they_shrink());
-      }
+      if (behind <= 0) doubted = !rule.sure && !is_believed(point, lack, little);
       foreseen = false;
       const bool seen = lacking(lack) > rule.round_off;
       const Real open = left(point, lack, seen ? 64 : 8);
@@ -131,7 +129,7 @@ struct Refinement {
     rule.settled = false;
     const int count = rounds;
     if (count == 0) asked = rule.rounds_asked();
-    if (count == 1 && (asks || untold >= 16)) learn_how_they_shrink(lack);
+    if (count == 1) tell_how_they_shrink(lack);
     const bool more = (*this)(point, lack, gradient);
     if (count > 0 && begun > 0) rule.learn_of_rounds(count, last / begun, 8 / amplifier);
     if (!more || !rule.is_slow()) return more;
@@ -180,24 +178,33 @@ struct Refinement {
     untold = 48;
     for (int j = 0; j < Size; ++j) ways[j] = longest[j] = spans[j] = shrinks[j] = 0;
   }
+  bool is_believed(const Real* point, const Real* lack, Real little) {
+    return foreseen && not_lost_behind(point, lack) <= little && knows_how_they_shrink();
+  }
   // Of the increments, where what is left behind counts: what follows is seen from some roundings
   // of a way on, which are those of the equations, and that again in the same ratio is left; or as
   // much as errors shrink.  See Note [what is left behind].
-  Real not_lost_behind(const Real* lack) {
-    return sum_of<Size>([&](int j) {
+  Real not_lost_behind(const Real* point, const Real* lack) {
+    for (int j = 0; j < Size; ++j) {
       const Real follows = magnitude(lack[j] - moved[j]);
       const Real before = longest[j] * (Real(1023) / 1024);
-      const Real gained = ways[j] > before ? ways[j] - before : Real(0);
-      longest[j] = before + gained;
-      const Real may_leave = epsilon * (longest[j] / 16384 + gained / 256);
-      const bool is_seen = follows > 4 * epsilon * at[j];
-      const bool counts = (is_seen && follows * (follows / missing[j]) > may_leave) ||
-                          shrinks[j] * shrinks[j] * missing[j] > 4 * may_leave;
-      return counts ? (follows > missing[j] ? follows : missing[j]) : Real(0);
-    });
+      longest[j] = ways[j] > before ? ways[j] : before;
+      const bool grows = 32 * (longest[j] - before) > longest[j];
+      const bool by_chance = missing[j] <= 2 * epsilon * length(point[j]);
+      const Real seen = follows > 4 * epsilon * at[j] ? follows * (follows / missing[j]) : Real(0);
+      const Real told = grows || by_chance ? Real(0) : shrinks[j] * shrinks[j] * missing[j];
+      const Real left = seen > told ? seen : told;
+      const Real larger = follows > missing[j] ? follows : missing[j];
+      moved[j] = 16384 * left > epsilon * longest[j] ? larger : Real(0);
+    }
+    return lengths_of(moved);
   }
   // A single one is told by the rule itself.
   bool knows_how_they_shrink() const { return Size == 1 || untold < 48; }
+  void tell_how_they_shrink(const Real* lack) {
+    if (untold >= (asks ? 4 : 16)) learn_how_they_shrink(lack);
+    asks = false;
+  }
   // By the first round behind the rounded point, of the errors that this leaves: a rough pattern,
   // which shrinks less than a smooth one.
   void learn_how_they_shrink(const Real* lack) {
@@ -212,7 +219,6 @@ struct Refinement {
       shrinks[j] = shrinks[j] > 0 ? (3 * shrinks[j] + left) / 4 : left;
     }
     untold = 0;
-    asks = false;
   }
   void forget_changes() {
     changes = false;
