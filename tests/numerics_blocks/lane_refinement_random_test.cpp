@@ -61,7 +61,7 @@ Begin some_begin(Chance& chance, const Equations& equations) {
 }
 
 template <class Number>
-struct Point {
+struct OnItsWay {
   Number factor[kSize], solution[kSize], coupling, x[kSize], from[kSize], lack[kSize];
 
   void look() {
@@ -104,7 +104,7 @@ TEST(LaneRefinement, IsAsAloneWhateverHappens) {
     std::vector<Lane> alone(kCount);
     for (Lane& lane : alone) lane.equations = some_equations(chance);
     for (int step = 0; step < 40; ++step) {
-      Point<lanes::Real> all = {};
+      OnItsWay<lanes::Real> all = {};
       lanes::Real has_part = 0, sure = 0, ends = 0, round_off = 0;
       std::vector<Begin> begins;
       for (int l = 0; l < kCount; ++l) {
@@ -135,7 +135,7 @@ TEST(LaneRefinement, IsAsAloneWhateverHappens) {
         const Begin& begin = begins[l];
         if (!begin.has_part) continue;
         Lane& lane = alone[l];
-        Point<double> one = {};
+        OnItsWay<double> one = {};
         for (int j = 0; j < kSize; ++j) {
           one.factor[j] = lane.equations.factor[j];
           one.solution[j] = lane.equations.solution[j];
