@@ -23,6 +23,13 @@ runtime::Status status_after_a_step(runtime::Integrator& integrator, double& lar
              : runtime::Status::done;
 }
 
+// Of steps that go back in time what rises with time falls.
+runtime::Direction along_steps(runtime::Direction direction, double h) {
+  if (h > 0.0 || direction == runtime::Direction::both) return direction;
+  return direction == runtime::Direction::rising ? runtime::Direction::falling
+                                                 : runtime::Direction::rising;
+}
+
 // The multiple of a turn that lies between two values, or that is nearest to them.
 double whole_turns_between(double before, double after) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -39,7 +46,8 @@ SectionOrbit follow(const SectionRequest& request, const std::vector<runtime::Wi
   };
   double turns = 0.0;  // that the surface is away
   const runtime::EventLocator locator(
-      request.library, start, [&](auto at) { return axes(at)[0].hi - turns; }, request.direction);
+      request.library, start, [&](auto at) { return axes(at)[0].hi - turns; },
+      along_steps(request.direction, start.h.hi));
   const auto first = [&](double x) { return request.first_turns ? within_a_turn(x) : x; };
   const auto second = [&](double y) { return request.second_turns ? within_a_turn(y) : y; };
   const auto begin = axes(state);

@@ -38,9 +38,9 @@ struct SectionRequest {
   std::optional<std::array<double, 4>> box = {};  // first low, high, second low, high
   // Angles, of which only what is left of a turn counts: the surface, each axis.
   bool turns = false, first_turns = false, second_turns = false;
-  int orbits = 0;  // 0: that of the scene alone
-  long points = 0;                                // of each orbit
-  long steps = 0;                                 // of each orbit at most
+  int orbits = 0;   // 0: that of the scene alone
+  long points = 0;  // of each orbit
+  long steps = 0;   // of each orbit at most
   std::function<void(int done, int of)> on_progress = {};
   StopFlag stop = nullptr;
 };

@@ -138,6 +138,15 @@ TEST(Section, CountsTurnsOfAnAngleAsOne) {
                                                                 : runtime::Direction::rising;
     EXPECT_EQ(app::section(request).orbits[0].points.size(), 0U) << "it turns the other way";
   }
+  // What rises with time does so along steps back, too, and starts are on that side.
+  request.start.h = {-0.05, 0.0};
+  request.direction = runtime::Direction::rising;
+  request.start.state[2] = {3.0, 0.0};
+  EXPECT_EQ(app::section(request).orbits[0].points.size(), 12U);
+  request.energy = 5;
+  request.orbits = 2;
+  for (const app::SectionOrbit& each : app::section(request).orbits)
+    EXPECT_EQ(each.points.size(), 12U);
 }
 
 // Lengths, and what H does not depend on, are none; nor is what only seems to turn.
