@@ -212,6 +212,23 @@ TEST(SectionCommand, SaysWhatIsAnAngle) {
   EXPECT_TRUE(contains(read(scratch.path("s.svg")), "(mod 2 pi)"));
 }
 
+// The time of a driven oscillator is an angle: what lies a period apart is its stroboscopic
+// section.
+TEST(SectionCommand, IsStroboscopicAtATime) {
+  const Scratch scratch;
+  const std::string model = scratch.write("driven.ham",
+                                          "system driven\ncoordinate x\nmomentum p\ntime t\n"
+                                          "H = p^2/2 - x^2/2 + x^4/4 - x*cos(t)/10\n"
+                                          "scene s { x = 0.5; h = 0.05; steps = 1000 }\n");
+  const Result result = hamgen({"section", model, "--surface", "t = 0", "--axes", "x,p", "--orbits",
+                                "0", "--points", "4", "--json", "--quiet"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto points = nlohmann::json::parse(result.out)["orbits"][0]["points"];
+  ASSERT_EQ(points.size(), 4U);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    EXPECT_NEAR(points[k][0], 2 * std::acos(-1.0) * static_cast<double>(k + 1), 1e-12);
+}
+
 // No more points than were asked for, though the last step crosses twice.
 TEST(SectionCommand, HasNoMorePointsThanWereAskedFor) {
   const Result result =
